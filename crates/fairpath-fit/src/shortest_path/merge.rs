@@ -33,6 +33,12 @@ const GAP_SCALE: [f64; 4] = [1.0, 1.0, 20.0, 200.0];
 /// Weight of the square of an open gap, px.
 const GAP_STIFFNESS: f64 = 30.0;
 
+/// Gaps that one full step closes anyway, px: while they are smaller they do not hold up the descent.
+const SMALL_GAP: f64 = 0.05;
+
+/// By how much, relatively, a step may raise the energy, since closing a small gap may cost a little.
+const SLACK: f64 = 1e-4;
+
 /// When to stop.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Effort {
@@ -78,8 +84,9 @@ pub(crate) fn merge(chain: &mut Chain, effort: Effort) -> Option<Measured> {
     let mut held: Vec<Held> = vec![[false; Q]; chain.pieces.len()];
     let mut now = chain.measure();
     let mut misfit = gaps(chain) + closure.misfit(&chain.pieces);
-    // Damping relative to the energy, and the price of a gap.
-    let (mut relative, mut price) = (1.0_f64, 0.0_f64);
+    // Damping relative to the energy.
+    let mut relative = 1.0_f64;
+    let mut replans = 0;
     for _ in 0..effort.rounds {
         let Some(plan) = backward(chain, &now, relative * (now.energy + 1.0), &closure, &held) else {
             relative *= 100.0;
@@ -89,23 +96,37 @@ pub(crate) fn merge(chain: &mut Chain, effort: Effort) -> Option<Measured> {
             continue;
         };
         // An exact penalty must outweigh what a gap can gain.
-        price = price.max(2.0 * plan.pull);
-        let merit = 0.5 * now.energy + price * misfit;
+        let price = 2.0 * plan.pull;
+        let merit = 0.5 * now.energy + price * (misfit - SMALL_GAP).max(0.0);
+        if std::env::var("FPDBG").is_ok() && chain.closed { eprintln!("round E={} merit={merit} price={price} misfit={misfit} rel={relative} gap={:?} first={:?} mult={:?}", now.energy, closure.gap(&chain.pieces), plan.first, plan.multipliers); }
         let old = chain.pieces.clone();
         let mut step = 1.0;
         let mut gain = None;
+        let mut wanted = None;
         for _ in 0..4 {
             let next_held = forward(chain, &old, &plan, step, &held);
             let next = chain.measure();
             let next_misfit = gaps(chain) + closure.misfit(&chain.pieces);
-            let next_merit = 0.5 * next.energy + price * next_misfit;
-            if next_merit <= merit {
-                gain = Some((merit - next_merit) / (next_merit + 1e-6));
+            let next_merit = 0.5 * next.energy + price * (next_misfit - SMALL_GAP).max(0.0);
+            if next_merit <= merit * (1.0 + SLACK) {
+                gain = Some((merit - next_merit).abs() / (next_merit + 1e-6));
                 (now, misfit, held) = (next, next_misfit, next_held);
+                break;
+            }
+            // A full step that ran into bounds is planned anew with those controls held.
+            if step == 1.0 && next_held != held && replans < 3 {
+                wanted = Some(next_held);
                 break;
             }
             step *= 0.3;
         }
+        if let Some(next_held) = wanted {
+            chain.pieces = old;
+            held = next_held;
+            replans += 1;
+            continue;
+        }
+        replans = 0;
         let Some(gain) = gain else {
             chain.pieces = old;
             relative = (relative * 100.0).max(1e-3);
@@ -115,7 +136,7 @@ pub(crate) fn merge(chain: &mut Chain, effort: Effort) -> Option<Measured> {
             continue;
         };
         relative = if step == 1.0 { (relative * 0.1).max(1e-9) } else { relative * 3.0 };
-        if gain < effort.tolerance && misfit < 1e-6 {
+        if gain < effort.tolerance && misfit < 1e-3 {
             break;
         }
     }
@@ -125,6 +146,9 @@ pub(crate) fn merge(chain: &mut Chain, effort: Effort) -> Option<Measured> {
     now.energy.is_finite().then_some(now)
 }
 
+/// Relative damping while only the joins are to be closed: so strong that nothing else moves.
+const JOINING: f64 = 1e3;
+
 /// Full steps until all joins hold to rounding; whether any was needed.
 fn join_exactly(chain: &mut Chain, closure: &Closure, held: &mut [Held]) -> Option<bool> {
     for round in 0..10 {
@@ -132,10 +156,16 @@ fn join_exactly(chain: &mut Chain, closure: &Closure, held: &mut [Held]) -> Opti
             return Some(round > 0);
         }
         let now = chain.measure();
-        let plan = backward(chain, &now, 1e-9, closure, held)?;
+        if std::env::var("FPDBG").is_ok() && chain.closed { eprintln!("close E={} gaps={} misfit={} gap={:?} held={:?}", now.energy, gaps(chain), closure.misfit(&chain.pieces), closure.gap(&chain.pieces), held.iter().map(|h| h.iter().map(|&x| if x {'x'} else {'.'}).collect::<String>()).collect::<Vec<_>>()); }
+        let plan = backward(chain, &now, JOINING * (now.energy + 1.0), closure, held)?;
         let old = chain.pieces.clone();
         let next = forward(chain, &old, &plan, 1.0, held);
-        held.copy_from_slice(&next);
+        // What is held stays held: here only the joins matter.
+        for (h, n) in held.iter_mut().zip(next) {
+            for (h, n) in h.iter_mut().zip(n) {
+                *h |= n;
+            }
+        }
     }
     (gaps(chain) == 0.0 && closure.misfit(&chain.pieces) < 1e-9).then_some(true)
 }
@@ -402,14 +432,16 @@ fn eliminate(
         g[KAPPA0] += g[KAPPA1];
     }
     let free: Vec<usize> = (0..Q).filter(|&i| roles[i] == Role::Control && !held[i]).collect();
+    // Damping is part of the model, not only of the step: closure then holds in every damped step as well.
+    for &i in &free {
+        let reach = reach(piece, i);
+        h[i][i] += damping / (reach * reach) + FLOOR[i];
+    }
     let mut factor = [[0.0; Q]; Q];
     for (a, &i) in free.iter().enumerate() {
         for (b, &j) in free.iter().enumerate().take(a + 1) {
             factor[a][b] = h[i][j];
         }
-        // Damped, and with a floor for pieces that no datum holds.
-        let reach = reach(piece, i);
-        factor[a][a] += damping / (reach * reach) + FLOOR[i];
     }
     if !cholesky(&mut factor, free.len(), 1e-13) {
         return None;
@@ -473,6 +505,9 @@ fn eliminate(
     Some(value)
 }
 
+/// Energy that letting go of a held control must promise, px³.
+const WORTH_LETTING_GO: f64 = 1e-2;
+
 /// How far a parameter may change in one round without leaving what its derivatives can foresee.
 fn reach(piece: &Piece, index: usize) -> f64 {
     let length = piece.q[LENGTH];
@@ -504,6 +539,10 @@ fn first_state(chain: &Chain, value: &mut Value, damping: f64, closure: &Closure
             value.g[i] += value.g[4 + i];
         }
     }
+    for i in 0..4 {
+        let reach = reach(&chain.pieces[0], i);
+        value.h[i][i] += damping / (reach * reach) + FLOOR[i];
+    }
     let roles = roles(chain, 0);
     let mut free: Vec<usize> = (0..4).filter(|&i| roles[i] == Role::State).collect();
     let mut held = [0.0; 4];
@@ -513,8 +552,6 @@ fn first_state(chain: &Chain, value: &mut Value, damping: f64, closure: &Closure
             for (b, &j) in free.iter().enumerate().take(a + 1) {
                 factor[a][b] = value.h[i][j];
             }
-            let reach = reach(&chain.pieces[0], i);
-            factor[a][a] += damping / (reach * reach) + FLOOR[i];
         }
         if !cholesky(&mut factor, free.len(), 1e-13) {
             return None;
@@ -612,7 +649,8 @@ fn forward(chain: &mut Chain, old: &[Piece], plan: &Plan, step: f64, held: &[Hel
                 at_bound[k][i] = if held[k][i] {
                     // Let go where the cost falls towards the inside.
                     let slope = law.slope[i] + (0..Z).map(|c| law.slope_gain[i][c] * input[c]).sum::<f64>();
-                    if q[i] <= low { slope > 0.0 } else { slope < 0.0 }
+                    let gain = slope * reach(&old[k], i);
+                    if q[i] <= low { gain > -WORTH_LETTING_GO } else { gain < WORTH_LETTING_GO }
                 } else {
                     wanted < low || wanted > high
                 };
