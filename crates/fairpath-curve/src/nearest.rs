@@ -186,7 +186,7 @@ impl Piece {
             }
             let (low_end, high_end) = (center - radius <= -self.half, center + radius >= self.half);
             let reach = f1 * radius + 0.5 * bound * radius * radius;
-            let rounding = ROUNDING * (distance + radius);
+            let rounding = ROUNDING * (distance + self.mid + self.half);
             if f + reach <= rounding || steps >= MAX_STEPS || depth + 2 > stack.len() {
                 collector.minimum(self, probe.h, probe.position, probe.distance2, Some(radius));
                 continue;
