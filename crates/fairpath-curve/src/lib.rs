@@ -7,6 +7,7 @@ mod comb;
 mod fit_source;
 mod flatten;
 mod greedy;
+mod lanes;
 mod moments;
 mod nearest;
 mod parts;
