@@ -18,6 +18,8 @@ pub(crate) struct Cleaned {
     pub(crate) origin: Point,
     /// Pixels are multiplied by this to give the stroke's unit.
     pub(crate) scale: f64,
+    /// Size of the steps if the points lie on a lattice, as a coarse mouse or canvas gives them, px; else zero.
+    pub(crate) grain: f64,
 }
 
 impl Cleaned {
@@ -64,11 +66,42 @@ pub(crate) fn clean(points: &[Point], pixel_size: f64) -> Result<Cleaned, FitErr
             distinct.push(p);
         }
     }
-    Ok(Cleaned { points: thin(&distinct), origin, scale: pixel_size })
+    let grain = grain(&distinct);
+    Ok(Cleaned { points: thin(&distinct), origin, scale: pixel_size, grain })
 }
 
 /// Drawings larger than this cannot be resolved in double precision at a thousandth of a pixel, px.
 const LARGEST: f64 = 1e9;
+
+/// The step of the lattice on which the points lie, px; zero if they do not lie on one. On a lattice nearly all turns are by multiples
+/// of 45°, however the drawing has been rotated since.
+fn grain(points: &[Vec2]) -> f64 {
+    let edges: Vec<Vec2> = points.windows(2).map(|p| p[1] - p[0]).collect();
+    if edges.len() < FEWEST_EDGES {
+        return 0.0;
+    }
+    // The turn as a complex number; its eighth power is one for a multiple of 45°.
+    let regular = |pair: &[Vec2]| {
+        let (a, b) = (pair[0], pair[1]);
+        let z = (a.dot(b), a.cross(b));
+        let square = |(x, y): (f64, f64)| (x * x - y * y, 2.0 * x * y);
+        let size = (z.0 * z.0 + z.1 * z.1).sqrt();
+        let (x, y) = square(square(square((z.0 / size, z.1 / size))));
+        x > 0.0 && y.abs() < 0.01
+    };
+    let turns = edges.windows(2).filter(|e| regular(e)).count();
+    if (turns as f64) < LATTICE_SHARE * (edges.len() - 1) as f64 {
+        return 0.0;
+    }
+    let mut lengths: Vec<f64> = edges.iter().map(|e| e.hypot2().sqrt()).collect();
+    let low = lengths.len() / 10;
+    *lengths.select_nth_unstable_by(low, f64::total_cmp).1
+}
+
+/// Fewer edges than this tell nothing of a lattice.
+const FEWEST_EDGES: usize = 6;
+/// Least share of regular turns on a lattice.
+const LATTICE_SHARE: f64 = 0.75;
 
 /// Averages neighbours where the points lie denser than [`DENSEST`]; the ends stay.
 fn thin(points: &[Vec2]) -> Vec<Vec2> {

@@ -16,20 +16,26 @@ const SPACING: f64 = 2.0;
 /// More points than this are not looked at: the spacing grows instead.
 const MOST_POINTS: f64 = 40_000.0;
 
+/// Tremor that comes with steps of a given size, as a share of it, and the smallest neighbourhood in such steps.
+const GRAIN_NOISE: f64 = 0.3;
+const GRAIN_WINDOW: f64 = 4.5;
+
 /// Share of the least corner angle that must show in the narrowest neighbourhood before a place is looked at closely.
 const NARROW_SHARE: f64 = 0.5;
 
 /// Arc lengths of the corners, increasing; the ends of an open stroke are not among them.
-pub(crate) fn corners(line: &Polyline, closed: bool, options: &FitOptions) -> Vec<f64> {
+pub(crate) fn corners(line: &Polyline, closed: bool, grain: f64, options: &FitOptions) -> Vec<f64> {
     let length = line.length();
     let count = round((length / SPACING).min(MOST_POINTS)).max(1.0) as usize;
     let spacing = length / count as f64;
     let mut hint = 0;
     let points: Vec<Vec2> = (0..=count).map(|i| line.at(spacing * i as f64, &mut hint)).collect();
     let n = if closed { count } else { count + 1 };
+    let noise = options.corner_noise.max(GRAIN_NOISE * grain);
     let mut found: Vec<Sighting> = Vec::new();
     let mut run: Vec<Datum> = Vec::new();
-    let narrow = (round(options.corner_windows()[3] / spacing) as isize).max(MIN_SIDE as isize);
+    let narrowest = options.corner_windows()[3].max(GRAIN_WINDOW * grain);
+    let narrow = (round(narrowest / spacing) as isize).max(MIN_SIDE as isize);
     for i in 0..n {
         // A corner turns within a few pixels what it turns at all.
         let index = |j: isize| {
@@ -41,14 +47,15 @@ pub(crate) fn corners(line: &Polyline, closed: bool, options: &FitOptions) -> Ve
             continue;
         }
         for window in options.corner_windows() {
-            let k = round(window / spacing) as usize;
+            // A neighbourhood of a few steps of a staircase shows nothing but steps.
+            let k = round(window.max(GRAIN_WINDOW * grain) / spacing) as usize;
             let (left, right) = if closed { (k, k) } else { (k.min(i), k.min(n - 1 - i)) };
             // A side cut short by the stroke's end tells about as much as a smaller window does.
             if k < MIN_SIDE || 2 * left.min(right) < k.max(2 * MIN_SIDE) || (closed && 2 * k >= n) {
                 continue;
             }
             let at = |j: isize| points[(i as isize + j).rem_euclid(n as isize) as usize];
-            if let Some(strength) = strength(&at, left as isize, right as isize, options, &mut run) {
+            if let Some(strength) = strength(&at, left as isize, right as isize, noise, options, &mut run) {
                 found.push(Sighting { strength, place: i, reach: k });
             }
         }
@@ -98,13 +105,14 @@ fn strength(
     at: &impl Fn(isize) -> Vec2,
     left: isize,
     right: isize,
+    noise: f64,
     options: &FitOptions,
     run: &mut Vec<Datum>,
 ) -> Option<f64> {
     let (a, p, b) = (at(-left), at(0), at(right));
     let (into, out) = (p - a, b - p);
     let turn = turn_between(into, out);
-    let floor = options.corner_noise * options.corner_noise;
+    let floor = noise * noise;
     let mut side = |range: &mut dyn Iterator<Item = isize>| {
         run.clear();
         run.extend(range.map(|j| Datum { point: at(j), s: j as f64, weight: 1.0 }));
@@ -128,7 +136,11 @@ fn strength(
     let whole = side(&mut (-left..=right));
     // No arc follows a stroke that turns back on itself: it would have to be walked back and forth.
     let points_apart = (b - a).hypot2().sqrt() / (left + right) as f64;
-    let one = if points_apart < 0.1 && whole.length < 0.5 * (left + right) as f64 { f64::MAX } else { whole.normal.energy / whole.normal.weight };
+    let one = if points_apart < 0.1 && whole.length < 0.5 * (left + right) as f64 {
+        f64::MAX
+    } else {
+        whole.normal.energy / whole.normal.weight
+    };
     let remaining = sides + floor;
     (one - sides >= options.corner_score * remaining).then(|| jump / remaining)
 }

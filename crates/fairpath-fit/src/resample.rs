@@ -12,18 +12,22 @@ pub(crate) struct Rate {
     low: f64,
 }
 
+/// Neighbourhood on each side for curvature, in steps of a staircase.
+const GRAIN_WINDOW: f64 = 5.0;
+
 /// Estimates the rate from the curvature at the vertices.
-pub(crate) fn rate(line: &Polyline, options: &FitOptions) -> Rate {
+pub(crate) fn rate(line: &Polyline, grain: f64, options: &FitOptions) -> Rate {
+    let window = options.curvature_window.max(GRAIN_WINDOW * grain);
     let n = line.points.len();
     let data: Vec<Datum> =
         line.points.iter().zip(&line.s).map(|(&point, &s)| Datum { point, s, weight: 1.0 }).collect();
     let (mut first, mut last) = (0, 0);
     let mut at_vertex: Vec<f64> = Vec::with_capacity(n);
     for i in 0..n {
-        while line.s[i] - line.s[first] > options.curvature_window {
+        while line.s[i] - line.s[first] > window {
             first += 1;
         }
-        while last + 1 < n && line.s[last + 1] - line.s[i] <= options.curvature_window {
+        while last + 1 < n && line.s[last + 1] - line.s[i] <= window {
             last += 1;
         }
         // Where the points are sparse the window takes in one neighbour on each side all the same.

@@ -41,19 +41,19 @@ impl Track {
 pub(crate) fn prepare(cleaned: &Cleaned, options: &FitOptions) -> Track {
     let Some(closed) = close(&cleaned.points, options) else {
         let line = Polyline::new(cleaned.points.clone());
-        let bends = corners(&line, false, options);
-        return assemble(&line, Shape::Open, &bends, options, 0);
+        let bends = corners(&line, false, cleaned.grain, options);
+        return assemble(&line, Shape::Open, &bends, cleaned.grain, options, 0);
     };
     let mut points = closed.points;
     points.push(points[0]);
     let line = Polyline::new(points);
-    let bends = corners(&line, true, options);
+    let bends = corners(&line, true, cleaned.grain, options);
     let Some(&seam) = bends.first() else {
-        return assemble(&line, Shape::Ring, &[], options, closed.trimmed);
+        return assemble(&line, Shape::Ring, &[], cleaned.grain, options, closed.trimmed);
     };
     // A closed stroke with corners is an open one whose ends meet at one of them.
     let bends: Vec<f64> = bends[1..].iter().map(|s| s - seam).collect();
-    assemble(&rotated(&line, seam), Shape::Loop, &bends, options, closed.trimmed)
+    assemble(&rotated(&line, seam), Shape::Loop, &bends, cleaned.grain, options, closed.trimmed)
 }
 
 /// How a stroke's ends relate.
@@ -80,8 +80,8 @@ fn rotated(line: &Polyline, s: f64) -> Polyline {
     Polyline::new(points)
 }
 
-fn assemble(line: &Polyline, shape: Shape, bends: &[f64], options: &FitOptions, trimmed: usize) -> Track {
-    let rate = rate(line, options);
+fn assemble(line: &Polyline, shape: Shape, bends: &[f64], grain: f64, options: &FitOptions, trimmed: usize) -> Track {
+    let rate = rate(line, grain, options);
     let length = line.length();
     let mut stops = vec![0.0];
     stops.extend(bends.iter().copied().filter(|&s| s > 1e-6 && s < length - 1e-6));

@@ -154,10 +154,20 @@ impl Walker {
             let straight = along / narrowing;
             let t = self.kappa * straight;
             let t2 = t * t;
-            let mut ds = if t2 < 0.4 { straight * (1.0 - t2 * (1.0 / 3.0 - t2 * (0.2 - t2 * 0.12))) } else { straight / (1.0 + 0.28 * t2) };
+            let mut ds = if t2 < 0.4 {
+                straight * (1.0 - t2 * (1.0 / 3.0 - t2 * (0.2 - t2 * 0.12)))
+            } else {
+                straight / (1.0 + 0.28 * t2)
+            };
             let limit = 1.2 / (self.kappa.abs() + (self.sharpness * ds).abs() + 1e-9);
             // Unlike clamp, this lets a NaN through instead of panicking; the caller sees it in the energy.
-            ds = if ds > limit { limit } else if ds < -limit { -limit } else { ds };
+            ds = if ds > limit {
+                limit
+            } else if ds < -limit {
+                -limit
+            } else {
+                ds
+            };
             self.advance(ds);
         }
         self.offset(point)

@@ -127,7 +127,13 @@ fn extended(shorter: &Walked, data: &[Datum], end_factor: f64) -> Normal {
     for (i, datum) in data.iter().enumerate() {
         let d = walker.project(datum.point);
         // The former end is an end no more, and the new one is.
-        let factor = if i == 0 { 1.0 - end_factor } else if i + 1 == data.len() { end_factor } else { 1.0 };
+        let factor = if i == 0 {
+            1.0 - end_factor
+        } else if i + 1 == data.len() {
+            end_factor
+        } else {
+            1.0
+        };
         normal.add(&walker.row(tangent), d, factor * datum.weight);
     }
     normal

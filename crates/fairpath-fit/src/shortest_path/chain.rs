@@ -70,7 +70,14 @@ pub(crate) struct Measured {
 }
 
 impl PieceNormal {
-    const ZERO: Self = Self { hessian: [[0.0; Q]; Q], gradient: [0.0; Q], error: 0.0, energy: 0.0, weight: 0.0, span: (usize::MAX, 0) };
+    const ZERO: Self = Self {
+        hessian: [[0.0; Q]; Q],
+        gradient: [0.0; Q],
+        error: 0.0,
+        energy: 0.0,
+        weight: 0.0,
+        span: (usize::MAX, 0),
+    };
 
     /// The deviation that costs are counted from.
     pub(crate) fn deviation(&self, options: &FitOptions) -> f64 {

@@ -124,11 +124,8 @@ fn improve_at(chain: &mut Chain, measured: &mut Measured, k: usize, options: &Fi
 fn changes(chain: &Chain, measured: &Measured, k: usize, options: &FitOptions) -> Vec<Change> {
     let mut out = Vec::new();
     let own = piece_cost(chain, measured, k, options);
-    let kinds = [
-        (Kind::Line, options.line_cost),
-        (Kind::Arc, options.arc_cost),
-        (Kind::Clothoid, options.clothoid_cost),
-    ];
+    let kinds =
+        [(Kind::Line, options.line_cost), (Kind::Arc, options.arc_cost), (Kind::Clothoid, options.clothoid_cost)];
     // Two become one.
     if k + 1 < chain.pieces.len() && chain.joins[k] != Continuity::G0 {
         let both = own + piece_cost(chain, measured, k + 1, options);
@@ -146,7 +143,8 @@ fn changes(chain: &Chain, measured: &Measured, k: usize, options: &FitOptions) -
     for (kind, price) in kinds {
         let piece = &chain.pieces[k];
         if simplicity(kind) < simplicity(piece.kind)
-            && let (Some(price), Some(simpler)) = (price, united(chain, (piece, piece), kind, span(measured, k..k + 1), options))
+            && let (Some(price), Some(simpler)) =
+                (price, united(chain, (piece, piece), kind, span(measured, k..k + 1), options))
             && own - price - penalty(simpler.1, options) > WORTHWHILE
         {
             out.push(Change { range: k..k + 1, with: vec![simpler.0], level: Continuity::G2 });
@@ -247,11 +245,15 @@ fn fits(chain: &Chain, change: &Change) -> bool {
         // Kind of a neighbour and the level of the join towards the change.
         let (piece, join) = if i < 0 {
             let k = change.range.start as isize + i;
-            if k < 0 && !chain.closed { return None }
+            if k < 0 && !chain.closed {
+                return None;
+            }
             (k.rem_euclid(n as isize) as usize, k.rem_euclid(n as isize) as usize)
         } else {
             let k = change.range.end as isize + i;
-            if k >= n as isize && !chain.closed { return None }
+            if k >= n as isize && !chain.closed {
+                return None;
+            }
             ((k % n as isize) as usize, ((k - 1) % n as isize) as usize)
         };
         Some((chain.pieces[piece].kind, chain.joins[join]))
@@ -263,11 +265,7 @@ fn fits(chain: &Chain, change: &Change) -> bool {
     let before: Vec<_> = [-2, -1].into_iter().map(at).collect();
     kinds.extend(before.iter().flatten());
     for (i, p) in change.with.iter().enumerate() {
-        let level = if i + 1 < change.with.len() {
-            change.level
-        } else {
-            at(0).map_or(Continuity::G0, |a| a.1)
-        };
+        let level = if i + 1 < change.with.len() { change.level } else { at(0).map_or(Continuity::G0, |a| a.1) };
         kinds.push((p.kind, level));
     }
     if let Some((kind, _)) = at(0) {

@@ -90,13 +90,7 @@ const ROUNDS_NEARBY: usize = 12;
 const REPAIR_REACH: usize = 40;
 
 /// Verifies the joins of a path; the nodes whose onward joins got dearer.
-fn reprice(
-    graph: &mut Graph,
-    path: &Path,
-    track: &Track,
-    options: &FitOptions,
-    verifications: &mut usize,
-) -> Vec<u32> {
+fn reprice(graph: &mut Graph, path: &Path, track: &Track, options: &FitOptions, verifications: &mut usize) -> Vec<u32> {
     let mut dearer: Vec<u32> = Vec::new();
     if let Some(edge) = pinched(graph, path) {
         graph.forbid(edge);
