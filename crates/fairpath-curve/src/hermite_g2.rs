@@ -80,7 +80,7 @@ fn residual(ends: &Ends, fractions: Fractions, unknowns: Unknowns) -> ([f64; 3],
 }
 
 /// Solves a 3 × 3 system by Cramer's rule.
-fn solve(m: &[[f64; 3]; 3], r: [f64; 3]) -> [f64; 3] {
+pub(crate) fn solve3(m: &[[f64; 3]; 3], r: [f64; 3]) -> [f64; 3] {
     let cross =
         |u: [f64; 3], v: [f64; 3]| [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
     let (c01, c12, c20) = (cross(m[0], m[1]), cross(m[1], m[2]), cross(m[2], m[0]));
@@ -93,7 +93,7 @@ fn newton(ends: &Ends, fractions: Fractions, mut u: Unknowns) -> Option<Unknowns
     let mut before = f64::INFINITY;
     for _ in 0..12 {
         let (missing, jacobian) = residual(ends, fractions, u);
-        let step = solve(&jacobian, missing);
+        let step = solve3(&jacobian, missing);
         let size = step[2].abs() + (step[0].abs() + step[1].abs()) * u[2].abs();
         if !size.is_finite() || size > 20.0 {
             return None;
