@@ -2,6 +2,7 @@
 
 use super::page::{Page, Picture, View, colour, colour_of};
 use super::{Comb, Layout, PictureOptions, sheet};
+use crate::drawable::{drawable_points, is_drawable};
 use crate::spline_file::SplineFile;
 use crate::stroke_file::StrokeFile;
 use crate::unit::YAxis;
@@ -15,11 +16,6 @@ const MARGIN: f64 = 0.05;
 const COMB_HEIGHT: f64 = 0.125;
 /// The part of all teeth that may stand higher than that.
 const COMB_OUTLIERS: f64 = 0.02;
-/// A drawing is not shown beyond these coordinates: squares would overflow.
-const MAX_COORDINATE: f64 = 1e60;
-/// A spline that turns by more than this, radians, is not drawn.
-const MAX_TURNING: f64 = 1e5;
-
 /// A picture of splines, with `strokes`, if given, behind them.
 ///
 /// Strokes without a spline are shown too. What no page can show (coordinates beyond 1e60, spirals of more than 1e5 rad) is left out.
@@ -65,19 +61,6 @@ pub(crate) fn page_for(bounds: Rect, size_px: f64, y_up: bool) -> (Page, View) {
     let (width, height) = (w * scale + 2.0 * margin, h * scale + 2.0 * margin);
     let view = View::fit(bounds, Rect::new(margin, margin, width - margin, height - margin), y_up);
     (Page::new(width, height), view)
-}
-
-/// Whether a page can show the spline.
-pub(crate) fn is_drawable(spline: &Spline) -> bool {
-    let segments = spline.segments();
-    let turning: f64 = segments.iter().map(|s| s.absolute_turning()).sum();
-    let near = |v: f64| v.abs() < MAX_COORDINATE;
-    turning < MAX_TURNING && segments.iter().all(|s| near(s.start.x) && near(s.start.y) && near(s.length))
-}
-
-/// The points of a stroke that a page can show.
-pub(crate) fn drawable_points(stroke: &Stroke) -> impl Iterator<Item = Point> + '_ {
-    stroke.points.iter().copied().filter(|p| p.x.abs() < MAX_COORDINATE && p.y.abs() < MAX_COORDINATE)
 }
 
 /// The box around splines and strokes; a unit box around the origin if there are none.

@@ -1,9 +1,10 @@
 //! A contact sheet: every stroke in a cell of its own, with its name and what its spline is made of.
 
 use super::PictureOptions;
-use super::drawing::{CombScale, Pen, bounds, is_drawable};
+use super::drawing::{CombScale, Pen, bounds};
 use super::lettering;
 use super::page::{Page, Picture, View, colour, colour_of};
+use crate::drawable::is_drawable;
 use crate::spline_file::{Failure, SplineEntry, SplineFile};
 use crate::stroke_file::StrokeFile;
 use crate::unit::YAxis;
