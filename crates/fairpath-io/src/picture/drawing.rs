@@ -16,6 +16,9 @@ const MARGIN: f64 = 0.05;
 const COMB_HEIGHT: f64 = 0.125;
 /// The part of all teeth that may stand higher than that.
 const COMB_OUTLIERS: f64 = 0.02;
+/// Teeth of the comb along a line across the page.
+const TEETH: f64 = 220.0;
+
 /// A picture of splines, with `strokes`, if given, behind them.
 ///
 /// Strokes without a spline are shown too. What no page can show (coordinates beyond 1e60, spirals of more than 1e5 rad) is left out.
@@ -28,7 +31,7 @@ pub fn draw_splines(file: &SplineFile, strokes: Option<&StrokeFile>, options: &P
     let shown: Vec<&Spline> = file.splines.iter().map(|e| &e.spline).filter(|s| is_drawable(s)).collect();
     let ghosts: &[Stroke] = strokes.filter(|_| options.ghost).map_or(&[], |s| &s.strokes);
     let bounds = bounds(shown.iter().copied(), ghosts.iter());
-    let comb = CombScale::of(options.comb, shown.iter().copied(), bounds);
+    let comb = CombScale::of(options.comb, shown.iter().copied(), bounds, TEETH);
     let bounds = comb.widened(bounds, shown.iter().copied());
     let (mut page, view) = page_for(bounds, options.size_px, y_up);
     let pen = Pen::for_size(options.size_px);
@@ -79,9 +82,10 @@ pub(crate) struct CombScale {
 }
 
 impl CombScale {
-    pub(crate) fn of<'a>(comb: Comb, splines: impl Iterator<Item = &'a Spline>, bounds: Rect) -> Self {
+    /// The comb with about `teeth` teeth along a line across the drawing.
+    pub(crate) fn of<'a>(comb: Comb, splines: impl Iterator<Item = &'a Spline>, bounds: Rect, teeth: f64) -> Self {
         let size = bounds.width().max(bounds.height());
-        let spacing = size / 240.0;
+        let spacing = size / teeth;
         let scale = match comb {
             Comb::Off => None,
             Comb::Scale(scale) => Some(scale).filter(|s| s.is_finite()),

@@ -1,17 +1,11 @@
 //! Small shapes that several tests use.
 
-use fairpath_curve::{Continuity, Point, Segment, Spline};
-use fairpath_io::{SplineEntry, SplineFile};
+#[path = "chain.rs"]
+mod chain;
 
-/// Segments of `(length, kappa0, kappa1)`, each beginning where the one before ends.
-pub(crate) fn chain(start: (f64, f64), heading: f64, pieces: &[(f64, f64, f64)]) -> Vec<Segment> {
-    let mut segments: Vec<Segment> = Vec::new();
-    for &(length, kappa0, kappa1) in pieces {
-        let (start, heading) = segments.last().map_or((Point::from(start), heading), |s| (s.end(), s.end_heading()));
-        segments.push(Segment::clothoid(start, heading, length, kappa0, kappa1));
-    }
-    segments
-}
+use chain::chain;
+use fairpath_curve::{Continuity, Spline};
+use fairpath_io::{SplineEntry, SplineFile};
 
 /// An open spline of line, clothoid, arc, clothoid, clothoid and line, G2 throughout.
 pub(crate) fn ribbon(start: (f64, f64)) -> Spline {
