@@ -20,7 +20,7 @@ pub mod trig;
 pub use comb::Tooth;
 pub use fit_source::FitSource;
 pub use kurbo::{Point, Vec2};
-pub use moments::{displacement, moments};
+pub use moments::{displacement, moments, moments_to_4};
 pub use nearest::{Nearest, SplineNearest};
 pub use segment::{Kind, Pose, PositionJacobian, Segment};
 pub use spline::{Continuity, JOIN_TOLERANCE, Spline, SplineError};

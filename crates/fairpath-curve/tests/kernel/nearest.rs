@@ -1,8 +1,6 @@
 //! The nearest point against sampling, and its behaviour on degenerate input.
 
-mod common;
-
-use common::{distance_by_sampling, segment, spline};
+use crate::common::{distance_by_sampling, segment, spline};
 use fairpath_curve::{Point, Segment, Vec2};
 use proptest::prelude::*;
 
@@ -43,7 +41,7 @@ proptest! {
         let least = all.iter().map(|n| n.distance).fold(f64::INFINITY, f64::min);
         prop_assert!((least - nearest.distance).abs() <= rounding, "{least} {}", nearest.distance);
         for n in &all {
-            for step in [-1e-4, 1e-4] {
+            for step in [-1e-7, 1e-7] {
                 let beside = n.s + step * s.length;
                 if (0.0..=s.length).contains(&beside) {
                     let d = (s.point_at(beside) - p).hypot();
