@@ -108,7 +108,7 @@ fn candidates(page: &mut Page, view: &View, pen: Pen, stages: &Stages) {
 }
 
 fn path(page: &mut Page, view: &View, pen: Pen, stages: &Stages) {
-    page.open(format_args!("fill=\"none\" stroke-width=\"{:.2}\"", 2.2 * pen.unit));
+    page.open(format_args!("fill=\"none\" stroke-width=\"{:.2}\"", 2.1 * pen.unit));
     let chosen = || stages.path.iter().filter_map(|&i| stages.candidates.get(i)).filter(|c| c.segment.is_valid());
     for c in chosen() {
         page.path(&view.segment(&c.segment), format_args!("stroke=\"{}\"", colour_of(c.segment.kind())));
