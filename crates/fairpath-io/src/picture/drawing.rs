@@ -76,6 +76,23 @@ pub(crate) fn bounds<'a>(splines: impl Iterator<Item = &'a Spline>, strokes: imp
     of_splines.chain(of_strokes).reduce(|a, b| a.union(b)).unwrap_or(Rect::new(-0.5, -0.5, 0.5, 0.5))
 }
 
+/// Points of the page without those too near to the one before to be told from it; the last stays.
+pub(crate) fn thinned(points: impl Iterator<Item = Point>) -> impl Iterator<Item = Point> {
+    const APART_PX: f64 = 0.2;
+    let mut points = points.peekable();
+    let mut kept: Option<Point> = None;
+    std::iter::from_fn(move || {
+        loop {
+            let p = points.next()?;
+            let last = points.peek().is_none();
+            if last || kept.is_none_or(|k| (p - k).hypot() >= APART_PX) {
+                kept = Some(p);
+                return kept;
+            }
+        }
+    })
+}
+
 /// How long the comb's teeth are, and how dense.
 #[derive(Clone, Copy)]
 pub(crate) struct CombScale {
@@ -126,7 +143,7 @@ impl Pen {
 
     /// The stroke as drawn, pale, with its points.
     pub(crate) fn ghost(&self, page: &mut Page, view: &View, stroke: &Stroke) {
-        let on_page = || drawable_points(stroke).map(|p| view.point(p));
+        let on_page = || thinned(drawable_points(stroke).map(|p| view.point(p)));
         page.polyline(
             on_page(),
             format_args!(

@@ -1,7 +1,7 @@
 //! The steps of the shortest-path method as figure 4 of Baran, Lehtinen and Popović (2010) shows them, one picture each.
 
 use super::PictureOptions;
-use super::drawing::{Pen, bounds, page_for};
+use super::drawing::{Pen, bounds, page_for, thinned};
 use super::page::{Page, Picture, View, colour, colour_of};
 use crate::drawable::{drawable_points, is_drawable};
 use crate::unit::YAxis;
@@ -66,7 +66,7 @@ pub fn draw_stages(
 }
 
 fn input(page: &mut Page, view: &View, pen: Pen, stroke: &Stroke) {
-    let points = || drawable_points(stroke).map(|p| view.point(p));
+    let points = || thinned(drawable_points(stroke).map(|p| view.point(p)));
     let width = 1.6 * pen.unit;
     page.polyline(points(), format_args!("fill=\"none\" stroke=\"{}\" stroke-width=\"{width:.2}\"", colour::STROKE));
     page.dots(points(), 2.2 * pen.unit, format_args!("stroke=\"{}\"", colour::STROKE));
