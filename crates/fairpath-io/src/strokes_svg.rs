@@ -2,7 +2,8 @@
 //!
 //! Frame: the coordinates are those of the outermost element, y down. Its `viewBox` chooses what is shown, not where things are, so
 //! it only scales: by 1 unless it and `width` say otherwise. A `width` in mm, cm, in or pt makes that the unit, else it is px.
-//! What is not drawn (`defs`, `display="none"`) is no stroke; what is drawn but has no line to follow (text, images, and the
+//! What is not drawn (`defs`, `display="none"` as attribute or in `style`) is no stroke; style sheets, `visibility` and
+//! `transform-origin` are not looked at; what is drawn but has no line to follow (text, images, and the
 //! shapes rect, circle and ellipse) is named in a warning.
 
 use crate::error::{Error, Fault};

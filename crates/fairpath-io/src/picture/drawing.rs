@@ -2,7 +2,7 @@
 
 use super::page::{Page, Picture, View, colour, colour_of};
 use super::{Comb, Layout, PictureOptions, sheet};
-use crate::drawable::{drawable_points, is_drawable};
+use crate::drawable::{Drawable, drawable_points};
 use crate::spline_file::SplineFile;
 use crate::stroke_file::StrokeFile;
 use crate::unit::YAxis;
@@ -31,7 +31,8 @@ pub fn draw_splines(file: &SplineFile, strokes: Option<&StrokeFile>, options: &P
         return sheet::draw(file, strokes, options, columns);
     }
     let y_up = file.y == YAxis::Up;
-    let shown: Vec<&Spline> = file.splines.iter().map(|e| &e.spline).filter(|s| is_drawable(s)).collect();
+    let mut drawable = Drawable::default();
+    let shown: Vec<&Spline> = file.splines.iter().map(|e| &e.spline).filter(|s| drawable.admits(s)).collect();
     let ghosts: &[Stroke] = strokes.filter(|_| options.ghost).map_or(&[], |s| &s.strokes);
     let bounds = bounds(shown.iter().copied(), ghosts.iter());
     let comb = CombScale::of(options.comb, shown.iter().copied(), bounds, TEETH);
