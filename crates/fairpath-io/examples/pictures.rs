@@ -1,11 +1,15 @@
 //! Draws the strokes of a file: `cargo run -p fairpath-io --example pictures -- IN OUT.png|.svg [sheet] [comb] [stages]`.
 //! With `stages`, the pictures of figure 4 of the first stroke go beside OUT.
 //!
+//! Any other extension that splines have (json, csv, dxf) is written as such.
+//!
 //! Fits each stroke with the default options, so it shows whatever the fitter does.
 
 use fairpath_fit::{FitOptions, Stages, fit, fit_observed};
 use fairpath_io::picture::{Comb, Layout, PictureOptions, draw_splines, draw_stages};
-use fairpath_io::{Error, Failure, ReadOptions, SplineEntry, SplineFile, read_strokes, write_whole};
+use fairpath_io::{
+    Error, Failure, ReadOptions, SplineEntry, SplineFile, WriteOptions, read_strokes, write_splines, write_whole,
+};
 use std::path::Path;
 
 fn main() -> Result<(), Error> {
@@ -37,6 +41,12 @@ fn main() -> Result<(), Error> {
                 write_whole(&path, &stage.picture.to_png()?)?;
             }
         }
+    }
+    if !output.ends_with(".svg") && !output.ends_with(".png") {
+        for warning in write_splines(Path::new(output), &splines, Some(&strokes), &WriteOptions::default())? {
+            eprintln!("{}: {}", warning.code, warning.text);
+        }
+        return Ok(());
     }
     let picture = draw_splines(&splines, Some(&strokes), &options);
     let bytes = if output.ends_with(".svg") { picture.to_svg().as_bytes().to_vec() } else { picture.to_png()? };

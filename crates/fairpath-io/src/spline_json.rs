@@ -8,7 +8,7 @@ use crate::strokes_json::{check_format, check_version, json_fault};
 use crate::unit::{Unit, YAxis};
 use fairpath_curve::{Continuity, Segment, Spline};
 use fairpath_fit::{Report, Warning};
-use schemars::JsonSchema;
+use schemars::{JsonSchema, Schema};
 use serde::de::{Error as _, IgnoredAny, MapAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize};
 use serde_json::Value;
@@ -68,13 +68,18 @@ struct SplineRecord {
 
 /// A report as it is written: the figures of the fit and the times beside them.
 #[derive(Serialize, JsonSchema)]
-#[schemars(rename = "SplineReport")]
+#[schemars(rename = "SplineReport", transform = all_optional)]
 struct ReportRecord {
     #[serde(flatten)]
     figures: Report,
     /// Wall time of each step.
     #[serde(skip_serializing_if = "Option::is_none")]
     ms: Option<Milliseconds>,
+}
+
+/// Another program need not know every figure of our reports.
+fn all_optional(schema: &mut Schema) {
+    schema.remove("required");
 }
 
 impl<'de> Deserialize<'de> for ReportRecord {
