@@ -75,6 +75,15 @@ fn json_that_breaks_the_rules_is_refused_with_its_place() {
 }
 
 #[test]
+fn bytes_that_are_no_text_are_refused_with_their_place() {
+    for format in [StrokeFormat::Json, StrokeFormat::Svg, StrokeFormat::InkMl] {
+        assert!(message(b"<svg>\n\xff", format).contains("line 2, byte 6: the text is not UTF-8"));
+        assert!(message(b" \r\n\t", format).contains("the file is empty"));
+        assert!(message(b"\0\0\0\0", format).contains("line 1"));
+    }
+}
+
+#[test]
 fn names_are_made_unique_in_the_order_of_the_file() {
     let file = good(
         r#"{"format":"fairpath-strokes","version":1,"strokes":[{"name":"a","points":[]},{"name":"a#2","points":[]},
