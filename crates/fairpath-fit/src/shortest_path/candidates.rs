@@ -115,6 +115,15 @@ pub(crate) fn candidates(track: &Track, options: &FitOptions) -> Vec<Candidate> 
 /// A kind of primitive is given up after this many runs in sequence that it does not fit.
 const PATIENCE: usize = 2;
 
+/// A candidate whose deviation costs more than this is discarded: two of the dearest kind would serve in its place.
+fn hopeless(options: &FitOptions) -> f64 {
+    let dearest = [options.line_cost, options.arc_cost, options.clothoid_cost].into_iter().flatten().fold(0.0, f64::max);
+    2.0 * dearest + HOPELESS_MARGIN
+}
+
+/// So that costs of zero do not discard everything.
+const HOPELESS_MARGIN: f64 = 10.0;
+
 /// A round of Gauss–Newton is taken while it promises to lower the energy by this share.
 const WORTH_A_STEP: f64 = 0.02;
 
@@ -176,7 +185,8 @@ fn extend(
     }
     let extent = data[data.len() - 1].s - data[0].s;
     let sound = fit.normal.energy.is_finite() && fit.length > 0.25 * extent && fit.length < 1.5 * extent + 4.0;
-    if !sound || fit.normal.max > options.max_error {
+    let error = deviation(fit.normal.energy, fit.normal.weight, fit.normal.max, options);
+    if !sound || fit.normal.max > options.max_error || penalty(error, options) > hopeless(options) {
         family.misses += 1;
         family.warm = sound.then_some(fit);
         return;

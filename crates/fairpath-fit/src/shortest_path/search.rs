@@ -26,9 +26,11 @@ pub(crate) fn search(graph: &mut Graph, track: &Track, options: &FitOptions) -> 
     for _ in 0..3 {
         let Some(path) = verified(graph, Goal::Around(from), track, options, &mut verifications) else { break };
         from = middle(graph, &path, track);
-        if best.as_ref().is_none_or(|b| path.cost < b.cost) {
-            best = Some(path);
+        // The path found before passes through this node too: no gain means that it was the best already.
+        if best.as_ref().is_some_and(|b| path.cost >= b.cost - 1e-9) {
+            break;
         }
+        best = Some(path);
     }
     best.map(|p| (p, verifications))
 }
@@ -55,7 +57,7 @@ fn verified(
 ) -> Option<Path> {
     let mut distances = Distances::new(graph, goal);
     let mut path = distances.path()?;
-    for round in 0..options.validation_rounds {
+    for _ in 0..options.validation_rounds {
         // Joins are verified with distances repaired nearby; when the path holds, all distances are computed anew, and it
         // is done if the path still holds.
         let mut changed = false;
@@ -68,7 +70,7 @@ fn verified(
             distances.repair(graph, dearer, REPAIR_REACH);
             path = distances.path()?;
         }
-        if !changed && round > 0 {
+        if !changed {
             break;
         }
         distances = Distances::new(graph, goal);

@@ -1,7 +1,6 @@
 //! What it costs to join two candidates (section 3.4 of Baran et al. 2010).
 
 use super::candidates::{Candidate, JoinState, penalty};
-use crate::linear::{cholesky, solve};
 use crate::options::{FitOptions, Transitions};
 use fairpath_curve::{Continuity, Kind};
 
@@ -93,36 +92,34 @@ fn by_covariance(u: &Candidate, v: &Candidate, level: Continuity, options: &FitO
     for (a, b) in meeting(u, v, overlap(level, options)) {
         let turn = a.turn_to(b);
         let bend = b.curvature - a.curvature;
-        let mut gap = [a.offset - b.offset, turn, bend];
+        let gap = [a.offset - b.offset, turn, bend];
         let s: [f64; 6] = std::array::from_fn(|i| a.covariance[i] + b.covariance[i]);
-        let mut l = [[s[0], 0.0, 0.0], [s[1], s[3], 0.0], [s[2], s[4], s[5]]];
-        for (i, row) in l.iter_mut().enumerate() {
-            row[i] += FIRMNESS[i];
-        }
-        if !cholesky(&mut l, dimensions, 1e-13) {
+        // S = L D Lᵀ. Dimensions that the join does not fix are left out by giving them no weight.
+        let (d0, s11, s22) = (s[0] + FIRMNESS[0], s[3] + FIRMNESS[1], s[5] + FIRMNESS[2]);
+        let (r0, l10, l20) = (1.0 / d0, s[1] / d0, s[2] / d0);
+        let d1 = s11 - l10 * s[1];
+        let e = s[4] - l20 * s[1];
+        let r1 = if dimensions > 1 { 1.0 / d1 } else { 0.0 };
+        let l21 = e * r1;
+        let d2 = s22 - l20 * s[2] - l21 * e;
+        let r2 = if dimensions > 2 { 1.0 / d2 } else { 0.0 };
+        if !(d0 > 0.0 && (dimensions < 2 || d1 > 1e-13 * s11) && (dimensions < 3 || d2 > 1e-13 * s22)) {
             continue;
         }
+        let reduced = |g: [f64; 3]| {
+            let y1 = g[1] - l10 * g[0];
+            [g[0], y1, g[2] - l20 * g[0] - l21 * y1]
+        };
         // Sliding by t adds t times the next derivative; the best t is a least-squares one.
-        let drift = [turn, bend, slope];
-        let mut pulled = drift;
-        solve(&l, dimensions, &mut pulled);
-        let (mut top, mut bottom) = (0.0, 0.0);
-        for i in 0..dimensions {
-            top += gap[i] * pulled[i];
-            bottom += drift[i] * pulled[i];
-        }
+        let (still, drift) = (reduced(gap), reduced([turn, bend, slope]));
+        let top = still[0] * drift[0] * r0 + still[1] * drift[1] * r1 + still[2] * drift[2] * r2;
+        let bottom = drift[0] * drift[0] * r0 + drift[1] * drift[1] * r1 + drift[2] * drift[2] * r2;
         let reach = slide_reach(u, v);
         let slide = if bottom > 0.0 { (-top / bottom).clamp(-reach, reach) } else { 0.0 };
-        for i in 0..dimensions {
-            gap[i] += slide * drift[i];
-        }
-        let mut force = gap;
-        solve(&l, dimensions, &mut force);
-        for f in &mut force[dimensions..] {
-            *f = 0.0;
-        }
+        let z = (still[2] + slide * drift[2]) * r2;
+        let y = (still[1] + slide * drift[1]) * r1 - l21 * z;
+        let x = (still[0] + slide * drift[0]) * r0 - l10 * y - l20 * z;
         let after = |c: &Candidate, s: &[f64; 6]| {
-            let [x, y, z] = force;
             let energy = x * (s[0] * x + 2.0 * (s[1] * y + s[2] * z)) + y * (s[3] * y + 2.0 * s[4] * z) + z * s[5] * z;
             (c.error * c.error + options.transition_peak * options.transition_peak * energy / c.weight).sqrt()
         };
