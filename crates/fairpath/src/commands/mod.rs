@@ -1,0 +1,13 @@
+//! A module for each verb.
+
+pub(crate) mod convert;
+pub(crate) mod fit;
+
+/// How a command ended, when its arguments and inputs were usable.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Ending {
+    /// All done.
+    Done,
+    /// Some stroke failed, or `--strict` found a tolerance missed.
+    SomeFailed,
+}

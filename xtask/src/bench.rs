@@ -1,0 +1,103 @@
+//! How long the fitter takes, how that grows with the stroke, and how much memory it needs.
+
+use std::path::Path;
+use std::process::Command;
+use std::time::Instant;
+
+use anyhow::{Context, Result, bail};
+use fairpath_fit::{FitOptions, Stroke, fit};
+
+use crate::{data, process, table, tree};
+
+const FILES: &[&str] = &[
+    "synthetic.json",
+    "quickdraw.json",
+    "omniglot.json",
+    "wacom.json",
+    "perfect.json",
+    "msink.json",
+    "hwrt.json",
+    "long.json",
+];
+
+/// Prints the figures.
+pub(crate) fn run(repeat: usize) -> Result<()> {
+    println!("Milliseconds to fit a stroke with the default preset, one thread, the best of {repeat}:\n");
+    let mut rows = Vec::new();
+    let mut long = Vec::new();
+    for file in FILES {
+        let strokes = data::shared(file)?;
+        let times: Vec<f64> = strokes.iter().map(|stroke| best_ms(stroke, repeat)).collect();
+        if *file == "long.json" {
+            long = strokes.iter().zip(&times).map(|(s, &ms)| (s.name.clone(), data::polyline_length(s), ms)).collect();
+        }
+        let mut sorted = times.clone();
+        sorted.sort_by(f64::total_cmp);
+        let figures = [sorted.iter().sum(), sorted[sorted.len() / 2], sorted[sorted.len() - 1]];
+        let mut row = vec![(*file).to_owned(), strokes.len().to_string()];
+        row.extend(figures.iter().map(|ms: &f64| format!("{ms:.2}")));
+        rows.push(row);
+    }
+    table::print(&["file", "strokes", "total", "median", "slowest"], &rows);
+
+    println!("\nThe long strokes:\n");
+    let mut rows = Vec::new();
+    for (name, length, ms) in &long {
+        let memory = if *length > 9000.0 { format!("{:.1}", peak_of("long.json", name)?) } else { "-".into() };
+        rows.push(vec![name.clone(), format!("{length:.0}"), format!("{ms:.2}"), memory]);
+    }
+    table::print(&["stroke", "px", "ms", "peak MiB"], &rows);
+    let points: Vec<(f64, f64)> = long.iter().map(|(_, length, ms)| (length.ln(), ms.ln())).collect();
+    println!("\ngrowth: ms = length^{:.2}, by least squares over these", slope(&points));
+    Ok(())
+}
+
+fn best_ms(stroke: &Stroke, repeat: usize) -> f64 {
+    let options = FitOptions::default();
+    let mut best = f64::INFINITY;
+    for _ in 0..repeat.max(1) {
+        let begun = Instant::now();
+        // A dot has no curve; the time to say so counts too.
+        let _ = std::hint::black_box(fit(std::hint::black_box(stroke), &options));
+        best = best.min(begun.elapsed().as_secs_f64() * 1e3);
+    }
+    best
+}
+
+/// The slope of the least-squares line.
+fn slope(points: &[(f64, f64)]) -> f64 {
+    let n = points.len() as f64;
+    let (mx, my) = points.iter().fold((0.0, 0.0), |(x, y), p| (x + p.0 / n, y + p.1 / n));
+    let (xy, xx) =
+        points.iter().fold((0.0, 0.0), |(xy, xx), p| (xy + (p.0 - mx) * (p.1 - my), xx + (p.0 - mx) * (p.0 - mx)));
+    xy / xx
+}
+
+/// Peak memory of a process that does nothing but fit this stroke, MiB.
+fn peak_of(file: &str, name: &str) -> Result<f64> {
+    let exe = std::env::current_exe().context("cannot tell where this program is")?;
+    let ran = process::capture(Command::new(exe).arg("peak-memory").arg(tree::strokes().join(file)).arg(name))?;
+    let kb: f64 = ran.text.trim().parse().with_context(|| format!("no figure but {}", ran.text))?;
+    Ok(kb / 1024.0)
+}
+
+/// What the child of [`peak_of`] does.
+pub(crate) fn peak_memory(file: &Path, name: &str) -> Result<()> {
+    let strokes = data::load(file)?;
+    let stroke = strokes.iter().find(|stroke| stroke.name == name).context("no stroke of that name")?;
+    fit(stroke, &FitOptions::default())?;
+    let status = std::fs::read_to_string("/proc/self/status").context("peak memory is read from /proc, as on Linux")?;
+    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"));
+    let Some(kb) = line.and_then(|rest| rest.split_whitespace().next()) else { bail!("/proc has no VmHWM") };
+    println!("{kb}");
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn slope_of_a_power_law_is_its_exponent() {
+        let points: Vec<(f64, f64)> = (1..9).map(f64::from).map(|x| (x.ln(), (3.0 * x.powf(1.25)).ln())).collect();
+        assert!((super::slope(&points) - 1.25).abs() < 1e-12);
+    }
+}
