@@ -1,7 +1,10 @@
 //! The fitter's parameters by name: listed, described and set generically, so that a new one needs nothing here.
 
+use std::fmt;
+
 use anyhow::{Context, Result, anyhow, bail};
 use fairpath_fit::FitOptions;
+use serde::de::{Deserialize, Deserializer, IgnoredAny, MapAccess, Visitor};
 use serde_json::{Map, Value};
 
 /// A parameter as its schema describes it.
@@ -32,11 +35,37 @@ pub fn all() -> Vec<Parameter> {
             kind: kind(property, &schema),
         })
         .collect();
-    // The schema sorts by name; a serialised value may keep the order of declaration, which groups what belongs together.
-    if let Ok(Value::Object(values)) = serde_json::to_value(FitOptions::default()) {
-        list.sort_by_key(|parameter| values.keys().position(|name| *name == parameter.name));
+    // The schema sorts by name; the order of declaration groups what belongs together.
+    let declared = serde_json::to_string(&FitOptions::default()).unwrap_or_default();
+    if let Ok(Keys(keys)) = serde_json::from_str(&declared) {
+        list.sort_by_key(|parameter| keys.iter().position(|name| *name == parameter.name));
     }
     list
+}
+
+/// The keys of a JSON object in the order of its text.
+struct Keys(Vec<String>);
+
+impl<'de> Deserialize<'de> for Keys {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> std::result::Result<Self, D::Error> {
+        struct Collect;
+        impl<'de> Visitor<'de> for Collect {
+            type Value = Keys;
+
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str("an object")
+            }
+
+            fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> std::result::Result<Keys, A::Error> {
+                let mut keys = Vec::new();
+                while let Some((key, IgnoredAny)) = map.next_entry()? {
+                    keys.push(key);
+                }
+                Ok(Keys(keys))
+            }
+        }
+        deserializer.deserialize_map(Collect)
+    }
 }
 
 /// The options with `key=value` settings applied in their order.
@@ -159,6 +188,13 @@ mod tests {
         for parameter in list {
             assert!(!parameter.description.is_empty(), "{}", parameter.name);
         }
+    }
+
+    #[test]
+    fn keys_keep_the_order_of_the_text() {
+        let Keys(keys) = serde_json::from_str(r#"{"b":1,"c":{"z":0},"a":[2]}"#).unwrap();
+        assert_eq!(keys, ["b", "c", "a"]);
+        assert_eq!(all()[0].name, "pixel_size");
     }
 
     #[test]

@@ -32,8 +32,20 @@ impl Printer {
 
     /// Why nothing came of it.
     pub(crate) fn error(&mut self, error: &Error) {
-        self.note(&format!("error: {error:#}"));
+        self.note(&format!("error: {}", chain(error)));
     }
+}
+
+/// An error and its causes, less those that it has told already.
+fn chain(error: &Error) -> String {
+    let mut text = error.to_string();
+    for cause in error.chain().skip(1).map(ToString::to_string) {
+        if !text.contains(&cause) {
+            text.push_str(": ");
+            text.push_str(&cause);
+        }
+    }
+    text
 }
 
 /// Whether the reader of standard output has gone, as `head` does: no error of ours.
@@ -69,6 +81,12 @@ pub(crate) fn columns(rows: &[Vec<String>]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_cause_is_told_once() {
+        let error = anyhow::anyhow!("inner").context("outer: inner; do this").context("outermost");
+        assert_eq!(chain(&error), "outermost: outer: inner; do this");
+    }
 
     #[test]
     fn columns_line_up() {

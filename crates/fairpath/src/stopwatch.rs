@@ -3,24 +3,7 @@
 use std::time::Instant;
 
 use fairpath_fit::{Observer, Step};
-use serde::{Deserialize, Serialize};
-
-/// Milliseconds spent in each step, as the spline file's report has them.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Milliseconds {
-    /// Cleaning, closure, corners and resampling.
-    pub preprocess: f64,
-    /// Fitting candidates.
-    pub candidates: f64,
-    /// Building the graph.
-    pub graph: f64,
-    /// Finding and verifying the path.
-    pub search: f64,
-    /// Enforcing the joins.
-    pub merge: f64,
-    /// From start to stop; no less than the sum of the others.
-    pub total: f64,
-}
+pub use fairpath_io::Milliseconds;
 
 /// An [`Observer`] with a clock.
 #[derive(Debug)]

@@ -1,10 +1,20 @@
-//! Stub.
-use anyhow::{Result, bail};
+//! `fairpath convert`: a spline file in another format.
+
+use anyhow::Result;
+use fairpath_io::{ReadOptions, read_splines};
 
 use super::Ending;
 use crate::args::ConvertArgs;
+use crate::output::{Destination, Ready};
 use crate::printer::Printer;
+use crate::{interrupt, pictures};
 
-pub(crate) fn run(_args: &ConvertArgs, _printer: &mut Printer) -> Result<Ending> {
-    bail!("not yet")
+pub(crate) fn run(args: &ConvertArgs, _printer: &mut Printer) -> Result<Ending> {
+    let to = Destination::new(&args.output, args.format)?;
+    interrupt::install();
+    let file = read_splines(&args.input, &ReadOptions::default())?;
+    let mut ready = Ready::default();
+    ready.add(&to.path, pictures::encode(&file, to.format)?);
+    ready.write()?;
+    Ok(Ending::Done)
 }
