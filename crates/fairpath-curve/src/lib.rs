@@ -1,13 +1,27 @@
 //! The clothoid kernel of Fairpath.
 
+mod arcs;
+mod bezier;
+mod bounds;
+mod comb;
+mod fit_source;
+mod flatten;
+mod greedy;
 mod moments;
+mod nearest;
+mod parts;
 #[cfg(feature = "serde")]
 mod record;
 mod segment;
 mod spline;
+mod transform;
 pub mod trig;
 
+pub use comb::Tooth;
+pub use fit_source::FitSource;
 pub use kurbo::{Point, Vec2};
 pub use moments::{displacement, moments};
+pub use nearest::{Nearest, SplineNearest};
 pub use segment::{Kind, Pose, PositionJacobian, Segment};
 pub use spline::{Continuity, JOIN_TOLERANCE, Spline, SplineError};
+pub use transform::Similarity;

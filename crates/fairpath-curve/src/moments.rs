@@ -4,7 +4,7 @@
 //! sharpness are `i M_0`, `i M_1` and `i M_2 / 2`. There is no special case for straight or circular pieces, so
 //! nothing loses its derivative near them.
 
-use crate::trig::{sin_cos, sin_cos_small};
+use crate::trig::{sin_cos, sin_cos_small, unit};
 use kurbo::Vec2;
 
 /// Abscissae and weights of the 10-point Gauss–Legendre rule on [−1, 1]; each stands for itself and its mirror image.
@@ -53,6 +53,13 @@ pub fn displacement(heading: f64, kappa0: f64, sharpness: f64, s: f64) -> Vec2 {
         sum += Vec2::new(cos * re - sin * im, sin * re + cos * im) * half;
     }
     sum
+}
+
+/// Position and unit tangent at arc length `h` from a point with the given curvature, in the frame of that point: x along
+/// its tangent, y to its left.
+#[inline]
+pub(crate) fn local_frame(kappa: f64, sharpness: f64, h: f64) -> (Vec2, Vec2) {
+    (displacement(0.0, kappa, sharpness, h), unit(h * (kappa + 0.5 * sharpness * h)))
 }
 
 /// The moments `[M_0, M_1, M_2]` over [0, s] of `θ(u) = heading + kappa0 u + sharpness u²/2`.

@@ -111,6 +111,12 @@ impl Spline {
         Ok(Self { segments, joins, closed })
     }
 
+    /// A spline of parts that are known to fit: those of another spline, moved or cut.
+    pub(crate) fn from_parts(segments: Vec<Segment>, joins: Vec<Continuity>, closed: bool) -> Self {
+        debug_assert_eq!(joins.len() + usize::from(!closed), segments.len());
+        Self { segments, joins, closed }
+    }
+
     /// The segments in order of travel.
     #[must_use]
     pub fn segments(&self) -> &[Segment] {
