@@ -1,0 +1,168 @@
+//! `fairpath-spline 1`: splines as JSON. Numbers are printed so that they read back to the same f64.
+
+use crate::error::{Error, Fault};
+use crate::input::Budget;
+use crate::limits::{Limits, ReadOptions};
+use crate::spline_file::{Failure, Milliseconds, SplineEntry, SplineFile, SplineReport};
+use crate::strokes_json::{check_format, check_version, json_fault};
+use crate::unit::{Unit, YAxis};
+use fairpath_curve::{Continuity, Segment, Spline};
+use fairpath_fit::{Report, Warning};
+use schemars::JsonSchema;
+use serde::de::Error as _;
+use serde::{Deserialize, Deserializer, Serialize};
+use serde_json::Value;
+
+/// The word in the file's `format`.
+const FORMAT: &str = "fairpath-spline";
+
+/// A file of splines as it is written; this is what the schema describes.
+#[derive(Serialize, Deserialize, JsonSchema)]
+#[schemars(title = "fairpath-spline 1")]
+pub(crate) struct SplinesRecord {
+    /// Always `fairpath-spline`.
+    #[schemars(extend("const" = "fairpath-spline"))]
+    #[serde(deserialize_with = "read_format")]
+    format: String,
+    /// Always 1.
+    #[schemars(extend("const" = 1))]
+    #[serde(deserialize_with = "read_version")]
+    version: u64,
+    /// Unit of all coordinates and lengths; px if absent.
+    #[serde(default)]
+    unit: Unit,
+    /// Where the y axis points; down if absent. Positive curvature turns from x towards y.
+    #[serde(default)]
+    y: YAxis,
+    /// The splines.
+    splines: Vec<SplineRecord>,
+    /// The strokes that have no spline.
+    #[serde(default)]
+    failures: Vec<Failure>,
+}
+
+/// A spline as it is written.
+#[derive(Serialize, Deserialize, JsonSchema)]
+#[schemars(rename = "Spline")]
+struct SplineRecord {
+    /// The stroke's name.
+    name: String,
+    /// The method that made it, such as `shortest-path`.
+    #[serde(default)]
+    method: String,
+    /// Whether the last segment runs back into the first.
+    closed: bool,
+    /// The segments in order of travel, at least one.
+    #[schemars(length(min = 1))]
+    segments: Vec<Segment>,
+    /// The continuity that each join holds to rounding: one fewer than segments for an open spline, as many for a closed one.
+    joins: Vec<Continuity>,
+    /// Figures about the fit.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    report: Option<ReportRecord>,
+    /// What the reader of the result should know.
+    #[serde(default)]
+    warnings: Vec<Warning>,
+}
+
+/// A report as it is written: the figures of the fit and the times beside them.
+#[derive(Serialize, JsonSchema)]
+#[schemars(rename = "SplineReport")]
+struct ReportRecord {
+    #[serde(flatten)]
+    figures: Report,
+    /// Wall time of each step.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    ms: Option<Milliseconds>,
+}
+
+impl<'de> Deserialize<'de> for ReportRecord {
+    /// Figures that the file does not have (an older or another program wrote it) are as in a fresh report.
+    fn deserialize<D: Deserializer<'de>>(d: D) -> Result<Self, D::Error> {
+        let mut given = serde_json::Map::<String, Value>::deserialize(d)?;
+        let ms = given.remove("ms").map(serde_json::from_value).transpose().map_err(D::Error::custom)?;
+        let mut figures = serde_json::to_value(Report::default()).map_err(D::Error::custom)?;
+        if let Some(known) = figures.as_object_mut() {
+            for (key, value) in known {
+                if let Some(found) = given.remove(key) {
+                    *value = found;
+                }
+            }
+        }
+        let figures = serde_json::from_value(figures).map_err(D::Error::custom)?;
+        Ok(Self { figures, ms: ms.flatten() })
+    }
+}
+
+fn read_format<'de, D: Deserializer<'de>>(d: D) -> Result<String, D::Error> {
+    let found = String::deserialize(d)?;
+    check_format(&found, FORMAT)?;
+    Ok(found)
+}
+
+fn read_version<'de, D: Deserializer<'de>>(d: D) -> Result<u64, D::Error> {
+    let found = u64::deserialize(d)?;
+    check_version(found)?;
+    Ok(found)
+}
+
+pub(crate) fn read(text: &str, options: &ReadOptions) -> Result<SplineFile, Fault> {
+    let record: SplinesRecord = serde_json::from_str(text).map_err(|e| json_fault(&e))?;
+    from_record(record, &options.limits)
+}
+
+fn from_record(record: SplinesRecord, limits: &Limits) -> Result<SplineFile, Fault> {
+    let SplinesRecord { unit, y, splines, failures, .. } = record;
+    let mut items = Budget::items(limits);
+    let mut file = SplineFile { unit, y, splines: Vec::with_capacity(splines.len()), failures, warnings: Vec::new() };
+    for record in splines {
+        items.spend(|| format!("spline {:?}", record.name))?;
+        let SplineRecord { name, method, closed, segments, joins, report, warnings } = record;
+        let spline = match Spline::new(segments, joins, closed) {
+            Ok(spline) => spline,
+            Err(source) => return Err(Fault::Spline { name, source }),
+        };
+        let report = report.map(|r| SplineReport { figures: r.figures, ms: r.ms });
+        file.splines.push(SplineEntry { name, method, spline, report, warnings });
+    }
+    Ok(file)
+}
+
+pub(crate) fn write(file: &SplineFile) -> Result<Vec<u8>, Error> {
+    let mut splines = Vec::with_capacity(file.splines.len());
+    for entry in &file.splines {
+        check_writable(entry)?;
+        splines.push(SplineRecord {
+            name: entry.name.clone(),
+            method: entry.method.clone(),
+            closed: entry.spline.is_closed(),
+            segments: entry.spline.segments().to_vec(),
+            joins: entry.spline.joins().to_vec(),
+            report: entry.report.clone().map(|r| ReportRecord { figures: r.figures, ms: r.ms }),
+            warnings: entry.warnings.clone(),
+        });
+    }
+    let (format, failures) = (FORMAT.into(), file.failures.clone());
+    let record = SplinesRecord { format, version: 1, unit: file.unit, y: file.y, splines, failures };
+    let mut bytes = serde_json::to_vec(&record).map_err(|e| Error::Unwritable {
+        format: "JSON",
+        place: "the file as a whole".into(),
+        problem: e.to_string(),
+    })?;
+    bytes.push(b'\n');
+    Ok(bytes)
+}
+
+/// JSON has no word for what is not finite: a figure that is must not become `null` unseen.
+fn check_writable(entry: &SplineEntry) -> Result<(), Error> {
+    let Some(report) = &entry.report else { return Ok(()) };
+    let figures = serde_json::to_value(&report.figures).unwrap_or_default();
+    let ms = serde_json::to_value(report.ms.unwrap_or_default()).unwrap_or_default();
+    let mut all = [&figures, &ms].into_iter().filter_map(Value::as_object).flatten();
+    if let Some((key, _)) = all.find(|(_, v)| v.is_null()) {
+        let place = format!("spline {:?}", entry.name);
+        let problem = format!("the report's {key} is not a finite number; leave the report out or repair it");
+        return Err(Error::Unwritable { format: "JSON", place, problem });
+    }
+    Ok(())
+}

@@ -1,0 +1,88 @@
+//! Units of length and the direction of the y axis, as files label them.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use std::fmt;
+
+/// The unit of a file's coordinates and lengths.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Unit {
+    /// Pixels of a screen, about 100 to the inch unless the file gives its `dpi`.
+    #[default]
+    Px,
+    /// Points, 72 to the inch.
+    Pt,
+    /// Millimetres.
+    Mm,
+    /// Centimetres.
+    Cm,
+    /// Metres.
+    M,
+    /// Kilometres.
+    Km,
+    /// Inches.
+    In,
+    /// Feet of 0.3048 m.
+    Ft,
+}
+
+impl Unit {
+    /// All units.
+    pub const ALL: [Self; 8] = [Self::Px, Self::Pt, Self::Mm, Self::Cm, Self::M, Self::Km, Self::In, Self::Ft];
+
+    /// The word that files use, such as `mm`.
+    #[must_use]
+    pub const fn as_str(self) -> &'static str {
+        match self {
+            Self::Px => "px",
+            Self::Pt => "pt",
+            Self::Mm => "mm",
+            Self::Cm => "cm",
+            Self::M => "m",
+            Self::Km => "km",
+            Self::In => "in",
+            Self::Ft => "ft",
+        }
+    }
+
+    /// The unit of that word, if it is one.
+    #[must_use]
+    pub fn from_word(word: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|u| u.as_str() == word)
+    }
+}
+
+impl fmt::Display for Unit {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.as_str())
+    }
+}
+
+/// Where the y axis points. A label: coordinates are never changed because of it unless the caller asks.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum YAxis {
+    /// Down, as on screens: positive curvature turns right.
+    #[default]
+    Down,
+    /// Up, as in mathematics and on maps: positive curvature turns left.
+    Up,
+}
+
+impl YAxis {
+    /// The word that files use: `down` or `up`.
+    #[must_use]
+    pub const fn as_str(self) -> &'static str {
+        match self {
+            Self::Down => "down",
+            Self::Up => "up",
+        }
+    }
+
+    /// The direction of that word, if it is one.
+    #[must_use]
+    pub fn from_word(word: &str) -> Option<Self> {
+        [Self::Down, Self::Up].into_iter().find(|y| y.as_str() == word)
+    }
+}
