@@ -1,10 +1,10 @@
 //! The recorded strokes, for chores that link the fitter.
 
-use std::fs;
 use std::path::Path;
 
-use anyhow::{Context, Result, bail};
+use anyhow::{Result, bail};
 use fairpath_fit::Stroke;
+use fairpath_io::{ReadOptions, read_strokes};
 
 use crate::tree;
 
@@ -18,13 +18,7 @@ pub(crate) fn shared(file: &str) -> Result<Vec<Stroke>> {
 
 /// The strokes of any file.
 pub(crate) fn load(path: &Path) -> Result<Vec<Stroke>> {
-    let bytes = fs::read(path).with_context(|| format!("cannot read {}", path.display()))?;
-    let _ = bytes;
-    todo_load()
-}
-
-fn todo_load() -> Result<Vec<Stroke>> {
-    bail!("not yet")
+    Ok(read_strokes(path, &ReadOptions::default())?.strokes)
 }
 
 /// The length of a stroke's polyline, in its unit.

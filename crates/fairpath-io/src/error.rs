@@ -48,9 +48,7 @@ pub enum Error {
         problem: String,
     },
     /// The file is larger than the caller allows (see [`Limits`](crate::Limits)).
-    #[error(
-        "{file}: {place}: more than {max} {what}; split the file, or raise `{limit}` if it is trusted"
-    )]
+    #[error("{file}: {place}: more than {max} {what}; split the file, or raise `{limit}` if it is trusted")]
     OverLimit {
         /// The file's name.
         file: String,

@@ -22,8 +22,7 @@ pub(crate) fn read(text: &str, options: &ReadOptions) -> Result<StrokeFile, Faul
     if root.tag_name().name() != "ink" {
         return Err(Fault::new(xml::place(root), "expected <ink> as the outermost element"));
     }
-    let by_id: HashMap<&str, Node<'_, '_>> =
-        root.descendants().filter_map(|n| id(n).map(|i| (i, n))).first_of_key();
+    let by_id: HashMap<&str, Node<'_, '_>> = root.descendants().filter_map(|n| id(n).map(|i| (i, n))).first_of_key();
     let mut points = Budget::points(&options.limits);
     let mut items = Budget::items(&options.limits);
     let mut file = StrokeFile::default();
@@ -48,10 +47,14 @@ pub(crate) fn read(text: &str, options: &ReadOptions) -> Result<StrokeFile, Faul
                 };
                 let found = (format.unit, format.y);
                 if *frame.get_or_insert(found) != found {
-                    return Err(Fault::new(xml::place(node), "traces of one file have different units or directions of y"));
+                    return Err(Fault::new(
+                        xml::place(node),
+                        "traces of one file have different units or directions of y",
+                    ));
                 }
                 let stroke = trace(node, format, &mut points)?;
-                let prior = node.attribute("priorRef").and_then(|r| position_of.get(r.trim_start_matches('#'))).copied();
+                let prior =
+                    node.attribute("priorRef").and_then(|r| position_of.get(r.trim_start_matches('#'))).copied();
                 let position = match (node.attribute("continuation"), prior) {
                     (Some("middle" | "end"), Some(position)) => {
                         append(&mut file.strokes[position], stroke);
@@ -198,7 +201,8 @@ impl Format {
                 Role::Time
             }
             "F" => {
-                let max = node.attribute("max").and_then(|m| m.parse::<f64>().ok()).filter(|m| *m > 0.0 && m.is_finite());
+                let max =
+                    node.attribute("max").and_then(|m| m.parse::<f64>().ok()).filter(|m| *m > 0.0 && m.is_finite());
                 scale = max.map_or(1.0, |m| 1.0 / m);
                 Role::Force
             }
@@ -217,11 +221,7 @@ fn length_unit(word: &str) -> (Unit, f64) {
 }
 
 /// Follows a context to its trace format.
-fn trace_format<'a, 'i>(
-    node: Node<'a, 'i>,
-    by_id: &HashMap<&str, Node<'a, 'i>>,
-    depth: usize,
-) -> Option<Node<'a, 'i>> {
+fn trace_format<'a, 'i>(node: Node<'a, 'i>, by_id: &HashMap<&str, Node<'a, 'i>>, depth: usize) -> Option<Node<'a, 'i>> {
     if node.tag_name().name() == "traceFormat" {
         return Some(node);
     }

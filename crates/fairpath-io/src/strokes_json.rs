@@ -80,12 +80,10 @@ fn unwritable(place: &str, problem: &str) -> Error {
 
 fn rows(stroke: &Stroke) -> Result<Vec<RowRecord>, Error> {
     check_writable(stroke, "JSON")?;
-    let rows = stroke.points.iter().enumerate().map(|(i, p)| {
-        match (stroke.times_s.get(i), stroke.pressures.get(i)) {
-            (t, Some(&pressure)) => RowRecord::Pressed(p.x, p.y, t.copied(), pressure),
-            (Some(&t), None) => RowRecord::Timed([p.x, p.y, t]),
-            (None, None) => RowRecord::Bare([p.x, p.y]),
-        }
+    let rows = stroke.points.iter().enumerate().map(|(i, p)| match (stroke.times_s.get(i), stroke.pressures.get(i)) {
+        (t, Some(&pressure)) => RowRecord::Pressed(p.x, p.y, t.copied(), pressure),
+        (Some(&t), None) => RowRecord::Timed([p.x, p.y, t]),
+        (None, None) => RowRecord::Bare([p.x, p.y]),
     });
     Ok(rows.collect())
 }

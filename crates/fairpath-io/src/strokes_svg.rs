@@ -45,7 +45,8 @@ pub(crate) fn read(text: &str, options: &ReadOptions) -> Result<StrokeFile, Faul
     let frame = Frame::of(root).map_err(|problem| Fault::new(xml::place(root), problem))?;
     reader.file.unit = frame.unit;
     reader.file.y = frame.y;
-    reader.children(root, &Place { affine: frame.affine, viewport: frame.viewport, depth: 0, name: None, link: None })?;
+    reader
+        .children(root, &Place { affine: frame.affine, viewport: frame.viewport, depth: 0, name: None, link: None })?;
     for (tag, count) in &reader.passed_over {
         reader.file.warnings.push(Warning {
             code: "not-a-stroke".into(),
@@ -184,7 +185,10 @@ impl<'a, 'i: 'a> Reader<'a, 'i> {
             "polygon" => self.polyline(node, &inner, true),
             "line" => {
                 let end = |x, y| {
-                    Ok(Point::new(coordinate(node, x, inner.viewport.width)?, coordinate(node, y, inner.viewport.height)?))
+                    Ok(Point::new(
+                        coordinate(node, x, inner.viewport.width)?,
+                        coordinate(node, y, inner.viewport.height)?,
+                    ))
                 };
                 let ends = end("x1", "y1").and_then(|a| Ok([a, end("x2", "y2")?])).map_err(fault)?;
                 self.strokes(node, &inner, vec![polyline(&ends, false)])
@@ -347,7 +351,10 @@ pub(crate) fn write(file: &StrokeFile) -> Result<Vec<u8>, Error> {
     let mut out = String::new();
     let width = open_svg(&mut out, bounds, file.unit, file.y);
     let mut put = |args: std::fmt::Arguments<'_>| out.write_fmt(args).expect("writing to a String does not fail");
-    put(format_args!("<g fill=\"none\" stroke=\"#222\" stroke-width=\"{width}\" stroke-linejoin=\"round\"{}>\n", flip(file.y)));
+    put(format_args!(
+        "<g fill=\"none\" stroke=\"#222\" stroke-width=\"{width}\" stroke-linejoin=\"round\"{}>\n",
+        flip(file.y)
+    ));
     for stroke in &file.strokes {
         put(format_args!("<polyline {NAME}=\"{}\" points=\"", xml::attribute(&stroke.name)));
         for (i, p) in stroke.points.iter().enumerate() {

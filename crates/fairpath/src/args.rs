@@ -71,8 +71,8 @@ pub struct FitArgs {
     pub pixel_size: Option<f64>,
 
     /// Number of threads; 0 is one for each processor. The result does not depend on it
-    #[arg(long, value_name = "N", default_value_t = 0)]
-    pub threads: usize,
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u16).range(0..=1024))]
+    pub threads: u16,
 
     /// End with exit code 1 if a tolerance was missed
     #[arg(long)]
@@ -82,6 +82,10 @@ pub struct FitArgs {
     #[arg(long, value_name = "FILE")]
     pub picture: Option<PathBuf>,
 
+    /// Lay the strokes of the picture out side by side, each scaled to fit
+    #[arg(long, requires = "picture")]
+    pub sheet: bool,
+
     /// Also draw the steps of the method for each stroke, as pictures in this folder
     #[arg(long, value_name = "DIR")]
     pub stages: Option<PathBuf>,
@@ -89,6 +93,10 @@ pub struct FitArgs {
     /// Print the parameters with their units and the values that the other options give them, and do nothing else
     #[arg(long)]
     pub list_parameters: bool,
+
+    /// Leave the times out of the report, so that the same input always gives the same bytes
+    #[arg(long)]
+    pub no_times: bool,
 
     /// Print the figures of each fit to standard output instead of the table
     #[arg(long, value_name = "FORM")]
@@ -99,7 +107,7 @@ pub struct FitArgs {
 #[derive(Args, Debug)]
 #[command(after_help = EXIT_CODES)]
 pub struct ConvertArgs {
-    /// A spline file: JSON (fairpath-spline 1) or CSV; `-` is standard input
+    /// A spline file: JSON (fairpath-spline 1), or SVG or CSV as written by fairpath; `-` is standard input
     #[arg(value_name = "IN")]
     pub input: PathBuf,
 

@@ -7,6 +7,7 @@ mod commands;
 mod interrupt;
 mod output;
 pub mod parameters;
+mod pictures;
 mod printer;
 mod progress;
 pub mod reference;
@@ -47,3 +48,8 @@ pub fn run() -> ExitCode {
         }
     }
 }
+
+/// The examples of the README are compiled and run with the tests.
+#[cfg(doctest)]
+#[doc = include_str!("../../../README.md")]
+struct Readme;

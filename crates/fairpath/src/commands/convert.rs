@@ -9,12 +9,16 @@ use crate::output::{Destination, Ready};
 use crate::printer::Printer;
 use crate::{interrupt, pictures};
 
-pub(crate) fn run(args: &ConvertArgs, _printer: &mut Printer) -> Result<Ending> {
+pub(crate) fn run(args: &ConvertArgs, printer: &mut Printer) -> Result<Ending> {
     let to = Destination::new(&args.output, args.format)?;
     interrupt::install();
     let file = read_splines(&args.input, &ReadOptions::default())?;
     let mut ready = Ready::default();
-    ready.add(&to.path, pictures::encode(&file, to.format)?);
+    let (bytes, warnings) = pictures::encode(&file, None, to.format)?;
+    ready.add(&to.path, bytes);
+    for warning in warnings {
+        printer.note(&format!("{}: {}", to.path.display(), warning.text));
+    }
     ready.write()?;
     Ok(Ending::Done)
 }

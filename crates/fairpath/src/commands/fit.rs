@@ -1,5 +1,6 @@
 //! `fairpath fit`: read all strokes, fit them in parallel, write everything or nothing.
 
+use std::collections::BTreeMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use anyhow::{Context, Result, bail};
@@ -10,7 +11,7 @@ use rayon::prelude::*;
 use super::Ending;
 use super::fit_inputs::{Inputs, Job};
 use super::fit_report;
-use crate::args::{FitArgs, Method, OutputFormat, Stats};
+use crate::args::{FitArgs, OutputFormat, Stats};
 use crate::output::{Destination, Ready};
 use crate::printer::Printer;
 use crate::progress::Progress;
@@ -30,37 +31,40 @@ pub(crate) fn run(args: &FitArgs, printer: &mut Printer) -> Result<Ending> {
 
     let inputs = Inputs::read(&args.inputs, printer)?;
     let jobs = inputs.jobs(|pixel_size| options(args, pixel_size))?;
-    let results = fit_all(&jobs, args)?;
-    let fitted = collect(args.method, &inputs, &jobs, results);
-
+    let outcomes = fit_all(&jobs, &inputs, args)?;
     let mut ready = Ready::default();
+    let file = collect(&inputs, outcomes, args, &mut ready);
     if let Some(to) = &destination {
-        ready.add(&to.path, pictures::encode(&fitted.file, to.format)?);
-    }
-    if let Some(to) = &picture {
-        ready.add(&to.path, pictures::overview(&fitted.file, &inputs.file, to.format)?);
-    }
-    if let Some(folder) = &args.stages {
-        for (job, stages) in jobs.iter().zip(&fitted.stages) {
-            let Some(stages) = stages else { continue };
-            for (step, svg) in pictures::stages(job.stroke, stages, &fitted.file, &inputs.file)? {
-                ready.add(folder.join(format!("{}-{step}.svg", file_stem(&job.stroke.name))), svg);
-            }
+        let (bytes, warnings) = pictures::encode(&file, Some(&inputs.file), to.format)?;
+        ready.add(&to.path, bytes);
+        for warning in warnings {
+            printer.note(&format!("{}: {}", to.path.display(), warning.text));
         }
     }
+    if let Some(to) = &picture {
+        let png = to.format == OutputFormat::Png;
+        ready.add(&to.path, pictures::overview(&file, &inputs.file, png, args.sheet)?);
+    }
     ready.write()?;
-    match (args.stats, &destination) {
-        (Some(Stats::Json), _) => printer.result(&fit_report::figures(&fitted.file)?)?,
-        (None, None) => printer.result(&fit_report::table(&fitted.file))?,
-        (None, Some(_)) => {}
-    }
-    fit_report::notes(&fitted.file, destination.is_some() || args.stats.is_some(), printer);
+    report(args, &file, printer)?;
 
-    let missed = if args.strict { missed_tolerances(&jobs, &fitted.file) } else { Vec::new() };
-    for text in &missed {
-        printer.note(text);
+    let missed = if args.strict { missed_tolerances(&jobs, &file) } else { Vec::new() };
+    fit_report::notes(missed.iter().cloned(), printer);
+    Ok(if file.failures.is_empty() && missed.is_empty() { Ending::Done } else { Ending::SomeFailed })
+}
+
+fn report(args: &FitArgs, file: &SplineFile, printer: &mut Printer) -> Result<()> {
+    let to_file = args.output.is_some();
+    // Told before the result, which may go to a reader who hangs up. The table and the figures show warnings themselves.
+    fit_report::notes(fit_report::failures(file), printer);
+    if to_file {
+        fit_report::notes(fit_report::warnings(file), printer);
     }
-    Ok(if fitted.file.failures.is_empty() && missed.is_empty() { Ending::Done } else { Ending::SomeFailed })
+    match args.stats {
+        Some(Stats::Json) => printer.result(&fit_report::figures(file)?),
+        None if to_file => Ok(()),
+        None => printer.result(&fit_report::table(file)),
+    }
 }
 
 /// The options that the arguments ask for, for strokes whose file says so of its pixels.
@@ -105,87 +109,86 @@ fn check_combination(args: &FitArgs, output: Option<&Destination>, picture: Opti
     Ok(())
 }
 
-/// What came of a stroke.
+/// What came of a stroke: a curve or the reason why not, and pictures of the steps, if asked for.
 struct Outcome {
     result: std::result::Result<SplineEntry, Failure>,
-    stages: Option<Stages>,
+    steps: Vec<(String, Vec<u8>)>,
 }
 
-fn fit_all(jobs: &[Job<'_>], args: &FitArgs) -> Result<Vec<Outcome>> {
+fn fit_all(jobs: &[Job<'_>], inputs: &Inputs, args: &FitArgs) -> Result<Vec<Outcome>> {
     let pool = rayon::ThreadPoolBuilder::new()
-        .num_threads(args.threads)
+        .num_threads(args.threads.into())
         .build()
         .with_context(|| format!("cannot start {} threads; ask for fewer", args.threads))?;
     let progress = Progress::start(jobs.len());
+    let one = |job: &Job<'_>| {
+        let outcome = fit_one(job, inputs, args);
+        progress.one_done();
+        outcome
+    };
     // `collect` keeps the order of the input, whatever the order of finishing.
-    Ok(pool.install(|| {
-        jobs.par_iter()
-            .map(|job| {
-                let outcome = fit_one(job, args);
-                progress.one_done();
-                outcome
-            })
-            .collect()
-    }))
+    Ok(pool.install(|| jobs.par_iter().map(one).collect()))
 }
 
-fn fit_one(job: &Job<'_>, args: &FitArgs) -> Outcome {
+fn fit_one(job: &Job<'_>, inputs: &Inputs, args: &FitArgs) -> Outcome {
+    let name = job.stroke.name.as_str();
     let mut stages = args.stages.is_some().then(Stages::default);
-    let name = &job.stroke.name;
     // The fitter does not panic on data; should it all the same, the other strokes are still worth having.
     let fitted = catch_unwind(AssertUnwindSafe(|| {
         let mut watch = Stopwatch::start();
         let fit = fit_observed(job.stroke, &job.options, &mut watch, stages.as_mut());
         (fit, watch.stop())
     }));
-    let result = match fitted {
-        Ok((Ok(fit), ms)) => Ok(SplineEntry::from_fit(name.as_str(), args.method.name(), fit, Some(ms))),
-        Ok((Err(error), _)) => Err(Failure::from_error(name.as_str(), &error)),
-        Err(_) => Err(Failure {
-            name: name.clone(),
-            code: "internal".into(),
-            text: "the fitter broke down on this stroke, which is a mistake of ours: please report it".into(),
-        }),
+    let failed = |failure| Outcome { result: Err(failure), steps: Vec::new() };
+    let (fit, ms) = match fitted {
+        Ok((Ok(fit), ms)) => (fit, ms),
+        Ok((Err(error), _)) => return failed(Failure::from_error(name, &error)),
+        Err(_) => {
+            let text = "the fitter broke down on this stroke, which is a mistake of ours: please report it";
+            return failed(Failure { name: name.into(), code: "internal".into(), text: text.into() });
+        }
     };
-    Outcome { stages: if result.is_ok() { stages } else { None }, result }
+    let steps = stages.map(|stages| pictures::steps(job.stroke, &stages, &fit.spline, inputs.file.y));
+    let entry = SplineEntry::from_fit(name, args.method.name(), fit, (!args.no_times).then_some(ms));
+    Outcome { result: Ok(entry), steps: steps.unwrap_or_default() }
 }
 
-struct Fitted {
-    file: SplineFile,
-    /// For each job.
-    stages: Vec<Option<Stages>>,
-}
-
-fn collect(_method: Method, inputs: &Inputs, jobs: &[Job<'_>], outcomes: Vec<Outcome>) -> Fitted {
-    debug_assert_eq!(jobs.len(), outcomes.len());
+/// All outcomes as one file; the pictures of the steps are made ready to be written.
+fn collect(inputs: &Inputs, outcomes: Vec<Outcome>, args: &FitArgs, ready: &mut Ready) -> SplineFile {
     let mut file = SplineFile { unit: inputs.file.unit, y: inputs.file.y, ..SplineFile::default() };
-    let mut stages = Vec::new();
-    for outcome in outcomes {
-        stages.push(outcome.stages);
+    for (i, (outcome, stroke)) in outcomes.into_iter().zip(&inputs.file.strokes).enumerate() {
+        if let Some(folder) = &args.stages {
+            for (step, svg) in outcome.steps {
+                // The number tells apart what is the same once it is fit for a file's name.
+                ready.add(folder.join(format!("{:03}-{}-{step}.svg", i + 1, file_stem(&stroke.name))), svg);
+            }
+        }
         match outcome.result {
             Ok(entry) => file.splines.push(entry),
             Err(failure) => file.failures.push(failure),
         }
     }
-    Fitted { file, stages }
+    file
 }
 
 /// A sentence for each curve that is further from its stroke than asked.
 fn missed_tolerances(jobs: &[Job<'_>], file: &SplineFile) -> Vec<String> {
     let mut missed = Vec::new();
+    let by_name: BTreeMap<&str, &Job<'_>> = jobs.iter().map(|job| (job.stroke.name.as_str(), job)).collect();
     for entry in &file.splines {
-        let Some(job) = jobs.iter().find(|job| job.stroke.name == entry.name) else { continue };
+        let Some(job) = by_name.get(entry.name.as_str()) else { continue };
         let Some(report) = &entry.report else { continue };
         let allowed = job.options.max_error * job.options.pixel_size;
         let deviation = report.figures.max_deviation;
         if deviation > allowed {
-            missed.push(format!("{}: the curve is {deviation:.3} off, more than {allowed:.3} (max_error)", entry.name));
+            let name = fit_report::plain(&entry.name);
+            missed.push(format!("{name}: the curve is {deviation:.3} off, more than {allowed:.3} (max_error)"));
         }
     }
     missed
 }
 
-/// A stroke's name as the name of a file.
+/// A stroke's name as part of the name of a file.
 fn file_stem(name: &str) -> String {
-    name.chars().map(|c| if c.is_alphanumeric() || matches!(c, '-' | '_' | '.') { c } else { '_' }).collect()
+    name.chars().take(80).map(|c| if c.is_alphanumeric() || matches!(c, '-' | '_' | '.') { c } else { '_' }).collect()
 }

@@ -32,7 +32,8 @@ pub(crate) fn parameters(options: &FitOptions) -> String {
 
 /// A line for each stroke.
 pub(crate) fn table(file: &SplineFile) -> String {
-    let header = ["stroke", "points", "segments", "L/A/C", "corners", "inflections", "max dev", "rms dev", "ms", "notes"];
+    let header =
+        ["stroke", "points", "segments", "L/A/C", "corners", "inflections", "max dev", "rms dev", "ms", "notes"];
     let mut rows = vec![header.map(str::to_owned).to_vec()];
     rows.extend(file.splines.iter().map(row));
     rows.extend(file.failures.iter().map(|failure| vec![plain(&failure.name), format!("failed: {}", failure.code)]));
@@ -63,7 +64,7 @@ fn row(entry: &SplineEntry) -> Vec<String> {
 /// # Errors
 /// When a figure cannot be written.
 pub(crate) fn figures(file: &SplineFile) -> Result<String> {
-    let bytes = pictures::encode(file, OutputFormat::Json)?;
+    let (bytes, _) = pictures::encode(file, None, OutputFormat::Json)?;
     let whole: Value = serde_json::from_slice(&bytes).context("the figures cannot be read back")?;
     let strokes: Vec<Value> = whole["splines"]
         .as_array()
@@ -81,24 +82,32 @@ pub(crate) fn figures(file: &SplineFile) -> Result<String> {
     Ok(text + "\n")
 }
 
-/// Failures, and warnings where the result itself does not show them, on standard error.
-pub(crate) fn notes(file: &SplineFile, with_warnings: bool, printer: &mut Printer) {
-    let mut notes: Vec<String> =
-        file.failures.iter().map(|failure| format!("{}: {}", plain(&failure.name), failure.text)).collect();
-    if with_warnings {
-        for entry in &file.splines {
-            notes.extend(entry.warnings.iter().map(|warning| format!("{}: {}", plain(&entry.name), warning.text)));
-        }
+/// A sentence for each stroke that failed.
+pub(crate) fn failures(file: &SplineFile) -> impl Iterator<Item = String> + '_ {
+    file.failures.iter().map(|failure| format!("{}: {}", plain(&failure.name), failure.text))
+}
+
+/// A sentence for each warning about a curve.
+pub(crate) fn warnings(file: &SplineFile) -> impl Iterator<Item = String> + '_ {
+    let of = |entry: &SplineEntry| {
+        let name = plain(&entry.name);
+        entry.warnings.iter().map(|warning| format!("{name}: {}", warning.text)).collect::<Vec<_>>()
+    };
+    file.splines.iter().flat_map(of)
+}
+
+/// Sentences on standard error, but not too many.
+pub(crate) fn notes(mut notes: impl Iterator<Item = String>, printer: &mut Printer) {
+    for note in notes.by_ref().take(MOST_NOTES) {
+        printer.note(&note);
     }
-    for note in notes.iter().take(MOST_NOTES) {
-        printer.note(note);
-    }
-    if notes.len() > MOST_NOTES {
-        printer.note(&format!("… and {} more of these", notes.len() - MOST_NOTES));
+    let more = notes.count();
+    if more > 0 {
+        printer.note(&format!("… and {more} more of these"));
     }
 }
 
 /// A name without what would upset a terminal.
-fn plain(name: &str) -> String {
+pub(crate) fn plain(name: &str) -> String {
     name.chars().map(|c| if c.is_control() { '\u{fffd}' } else { c }).collect()
 }

@@ -2,6 +2,8 @@
 
 pub(crate) mod convert;
 pub(crate) mod fit;
+mod fit_inputs;
+mod fit_report;
 
 /// How a command ended, when its arguments and inputs were usable.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
