@@ -68,7 +68,7 @@ impl Segment {
         let tolerance =
             Tolerance { accuracy: accuracy.max(FINEST * self.length), order: 3.0, shortest: 1e-6 * self.length };
         let sharpness = self.sharpness();
-        let longest = |from: f64| turn_limit(self.curvature_at(from).abs(), sharpness.abs(), MAX_TURN);
+        let longest = |from: f64| turn_limit(self.curvature_at(from), sharpness, MAX_TURN);
         let pairs = longest_pieces(self.length, &tolerance, longest, |from, to| {
             let pose = self.pose_at(from);
             let local = |s: f64| displacement(pose.heading, pose.curvature, sharpness, s);

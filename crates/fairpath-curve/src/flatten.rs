@@ -104,9 +104,9 @@ impl Segment {
     }
 
     fn flattens(&self, count: f64, nearly_arc: bool, accuracy: f64) -> bool {
-        let rate = self.sharpness().abs();
+        let rate = self.sharpness();
         self.vertices(count, nearly_arc).windows(2).all(|w| {
-            w[1] - w[0] <= turn_limit(self.curvature_at(w[0]).abs(), rate, MAX_TURN)
+            w[1] - w[0] <= turn_limit(self.curvature_at(w[0]), rate, MAX_TURN)
                 && self.chord_deviation(w[0], w[1]) <= accuracy
         })
     }

@@ -184,9 +184,11 @@ impl Piece {
             if lowest >= collector.bound() * (1.0 - ROUNDING) {
                 continue;
             }
-            let (low_end, high_end) = (center - radius <= -self.half, center + radius >= self.half);
+            // Half a radius of slack: halving rounds.
+            let slack = self.half - 0.5 * radius;
+            let (low_end, high_end) = (center - radius <= -slack, center + radius >= slack);
             let reach = f1 * radius + 0.5 * bound * radius * radius;
-            let rounding = ROUNDING * (distance + radius);
+            let rounding = ROUNDING * (distance + self.mid + self.half);
             if f + reach <= rounding || steps >= MAX_STEPS || depth + 2 > stack.len() {
                 collector.minimum(self, probe.h, probe.position, probe.distance2, Some(radius));
                 continue;

@@ -43,7 +43,7 @@ proptest! {
         let least = all.iter().map(|n| n.distance).fold(f64::INFINITY, f64::min);
         prop_assert!((least - nearest.distance).abs() <= rounding, "{least} {}", nearest.distance);
         for n in &all {
-            for step in [-1e-4, 1e-4] {
+            for step in [-1e-7, 1e-7] {
                 let beside = n.s + step * s.length;
                 if (0.0..=s.length).contains(&beside) {
                     let d = (s.point_at(beside) - p).hypot();

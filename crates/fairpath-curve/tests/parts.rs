@@ -3,7 +3,7 @@
 mod common;
 
 use common::{heading, segment, spline};
-use fairpath_curve::{Continuity, Point, Segment, Similarity, Spline, Vec2};
+use fairpath_curve::{Continuity, Kind, Point, Segment, Similarity, Spline, Vec2};
 use proptest::prelude::*;
 
 fn similarity() -> impl Strategy<Value = Similarity> {
@@ -46,7 +46,8 @@ proptest! {
         let size = t.length + image.to_vec2().hypot();
         prop_assert!((image - point).hypot() <= 1e-12 * size);
         prop_assert!((by.heading(s.heading_at(at)) - t.heading_at(at * by.scale)).abs() <= 1e-11);
-        prop_assert_eq!(s.kind(), t.kind());
+        // Curvatures one bit apart may become one; equal ones stay equal.
+        prop_assert!(s.kind() == Kind::Clothoid || s.kind() == t.kind());
     }
 
     #[test]

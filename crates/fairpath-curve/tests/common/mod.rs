@@ -1,5 +1,5 @@
 //! Generators and reference computations shared by the tests.
-#![expect(unreachable_pub, dead_code, reason = "each test binary uses the part it needs")]
+#![expect(unreachable_pub, reason = "a module of test binaries has no outside")]
 
 use fairpath_curve::{Continuity, Point, Segment, Spline};
 use proptest::prelude::*;
