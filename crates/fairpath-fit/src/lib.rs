@@ -1,14 +1,22 @@
 //! Fair curves from rough strokes.
 
+mod clean;
+mod closure;
+mod corners;
+mod linear;
 mod options;
+mod polyline;
+mod primitive_fit;
+mod resample;
 mod result;
+mod shortest_path;
 mod stroke;
+mod track;
+mod walk;
 
-pub use options::{Closing, FitOptions, Preset};
+pub use options::{Closing, FitOptions, Preset, Resampling, Transitions};
 pub use result::{Candidate, Fit, FitError, Observer, Report, Stages, Step, Warning};
 pub use stroke::Stroke;
-
-use fairpath_curve::{Continuity, Segment, Spline, trig};
 
 /// The fair curve of a stroke.
 ///
@@ -24,18 +32,9 @@ pub fn fit(stroke: &Stroke, options: &FitOptions) -> Result<Fit, FitError> {
 /// As [`fit`].
 pub fn fit_observed(
     stroke: &Stroke,
-    _options: &FitOptions,
+    options: &FitOptions,
     observer: &mut dyn Observer,
-    _stages: Option<&mut Stages>,
+    stages: Option<&mut Stages>,
 ) -> Result<Fit, FitError> {
-    observer.step(Step::Merge);
-    let mut points = stroke.points.clone();
-    points.dedup();
-    let segments: Vec<Segment> =
-        points.windows(2).map(|p| Segment::line(p[0], trig::angle_of(p[1] - p[0]), (p[1] - p[0]).hypot())).collect();
-    observer.step(Step::Done);
-    let joins = vec![Continuity::G0; segments.len().saturating_sub(1)];
-    let spline = Spline::new(segments, joins, false)
-        .map_err(|_| FitError::TooShort { points: stroke.points.len(), extent: 0.0 })?;
-    Ok(Fit { spline, report: Report { points: stroke.points.len(), ..Report::default() }, warnings: Vec::new() })
+    shortest_path::fit(stroke, options, observer, stages)
 }

@@ -41,9 +41,31 @@ pub enum Closing {
     No,
 }
 
+/// How samples are placed along the stroke.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Resampling {
+    /// At equal steps of the integral of the sampling rate: the same places whichever way the stroke is drawn.
+    #[default]
+    Even,
+    /// As the paper does: the longest allowed steps from the start, the last four samples moved to meet the end.
+    Greedy,
+}
+
+/// How the cost of a join is estimated before it is verified.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Transitions {
+    /// The least-squares cost of moving both primitives so that they meet, from the covariances of their fits.
+    #[default]
+    Covariance,
+    /// The paper's bound from the mismatch in position, heading and curvature.
+    Paper,
+}
+
 /// Options of the shortest-path method (Baran, Lehtinen and Popović 2010). Sections and equations are the paper's.
 ///
-/// Lengths marked px are multiplied by `pixel_size`; costs have no unit. A cost of `null` forbids.
+/// Lengths in px are multiplied by `pixel_size`; costs are compared with each other only. A cost of `null` forbids.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct FitOptions {
@@ -52,9 +74,100 @@ pub struct FitOptions {
     pub pixel_size: f64,
     /// Whether the stroke is a closed curve (section 3.1).
     pub closed: Closing,
-    /// Largest distance of first and last point of a closed stroke (section 3.1).
+    /// Largest distance of first and last point of a closed stroke (section 3.1; the paper's value is 15).
     #[schemars(extend("unit" = "px"))]
     pub closing_gap: f64,
+    /// Least angle between the two arcs that meet at a corner (section 3.1 leaves the method open).
+    #[schemars(extend("unit" = "degrees"))]
+    pub corner_angle: f64,
+    /// How much better two arcs must describe a corner than one: the drop in mean square distance over what remains.
+    #[schemars(extend("unit" = "1"))]
+    pub corner_score: f64,
+    /// Tremor taken for granted when that is judged.
+    #[schemars(extend("unit" = "px"))]
+    pub corner_noise: f64,
+    /// Largest neighbourhood on each side of a corner; three smaller ones are looked at as well.
+    #[schemars(extend("unit" = "px"))]
+    pub corner_window: f64,
+    /// Least distance of two corners along the stroke.
+    #[schemars(extend("unit" = "px"))]
+    pub corner_distance: f64,
+    /// How samples are placed (section 3.2).
+    pub resampling: Resampling,
+    /// How fast the distance of samples may change along the stroke: β of section 3.2.
+    #[schemars(extend("unit" = "px/px"))]
+    pub sampling_falloff: f64,
+    /// Samples on a full circle: γ of section 3.2.
+    #[schemars(extend("unit" = "1"))]
+    pub points_per_circle: f64,
+    /// Least distance of samples (section 3.2).
+    #[schemars(extend("unit" = "px"))]
+    pub min_sampling: f64,
+    /// Largest distance of samples (section 3.2).
+    #[schemars(extend("unit" = "px"))]
+    pub max_sampling: f64,
+    /// Neighbourhood on each side from which curvature is estimated (section 3.2).
+    #[schemars(extend("unit" = "px"))]
+    pub curvature_window: f64,
+    /// A candidate further than this from its samples is discarded (equation 2).
+    #[schemars(extend("unit" = "px"))]
+    pub max_error: f64,
+    /// Weight of the first and last sample of a candidate relative to the others (equation 1).
+    #[schemars(extend("unit" = "1"))]
+    pub end_factor: f64,
+    /// Share of the weight that the samples carry in fits; the input points carry the rest, so that tremor is averaged.
+    #[schemars(extend("unit" = "1"))]
+    pub sample_share: f64,
+    /// Cost of a line; null forbids lines (section 3.4).
+    #[schemars(extend("unit" = "cost"))]
+    pub line_cost: Option<f64>,
+    /// Cost of an arc; null forbids arcs (section 3.4).
+    #[schemars(extend("unit" = "cost"))]
+    pub arc_cost: Option<f64>,
+    /// Cost of a clothoid; null forbids clothoids (section 3.4).
+    #[schemars(extend("unit" = "cost"))]
+    pub clothoid_cost: Option<f64>,
+    /// Cost of a join with continuous position only, away from corners; null forbids it (section 3.4).
+    #[schemars(extend("unit" = "cost"))]
+    pub g0_cost: Option<f64>,
+    /// Cost of a join with continuous heading; null forbids it (section 3.4).
+    #[schemars(extend("unit" = "cost"))]
+    pub g1_cost: Option<f64>,
+    /// Cost of a join with continuous curvature; null forbids it (section 3.4).
+    #[schemars(extend("unit" = "cost"))]
+    pub g2_cost: Option<f64>,
+    /// Cost of deviation, times the square of what exceeds `free_error`: w_E of section 3.4.
+    #[schemars(extend("unit" = "cost/px²"))]
+    pub error_cost: f64,
+    /// Deviation that costs nothing (section 3.4).
+    #[schemars(extend("unit" = "px"))]
+    pub free_error: f64,
+    /// Cost of shortness, times the square of what a primitive falls short of `short_length`: w_S of section 3.4.
+    #[schemars(extend("unit" = "cost/px²"))]
+    pub shortness_cost: f64,
+    /// Primitives shorter than this cost extra: l_min of section 3.4.
+    #[schemars(extend("unit" = "px"))]
+    pub short_length: f64,
+    /// Cost of an inflection (sections 3.4 and 3.8).
+    #[schemars(extend("unit" = "cost"))]
+    pub inflection_cost: f64,
+    /// Sample intervals by which primitives overlap at a G2 join (section 3.4): 0, 1 or 2.
+    #[schemars(extend("unit" = "samples"))]
+    pub g2_overlap: usize,
+    /// Sample intervals by which primitives overlap at a G1 join (section 3.4): 0, 1 or 2.
+    #[schemars(extend("unit" = "samples"))]
+    pub g1_overlap: usize,
+    /// How the cost of a join is estimated before it is verified (section 3.4).
+    pub transitions: Transitions,
+    /// Ratio of largest to root mean square displacement assumed when a join is estimated by covariance.
+    #[schemars(extend("unit" = "1"))]
+    pub transition_peak: f64,
+    /// A join that is expected to move both primitives further than this is not considered (section 3.4).
+    #[schemars(extend("unit" = "px"))]
+    pub max_join_error: f64,
+    /// Most rounds of verifying the joins of the shortest path (section 3.5).
+    #[schemars(extend("unit" = "1"))]
+    pub validation_rounds: usize,
 }
 
 impl Default for FitOptions {
@@ -66,7 +179,71 @@ impl Default for FitOptions {
 impl FitOptions {
     /// The options of a preset.
     #[must_use]
-    pub fn preset(_preset: Preset) -> Self {
-        Self { pixel_size: 1.0, closed: Closing::Auto, closing_gap: 15.0 }
+    pub fn preset(preset: Preset) -> Self {
+        let default = Self {
+            pixel_size: 1.0,
+            closed: Closing::Auto,
+            closing_gap: 15.0,
+            corner_angle: 38.0,
+            corner_score: 2.0,
+            corner_noise: 0.5,
+            corner_window: 26.0,
+            corner_distance: 12.0,
+            resampling: Resampling::Even,
+            sampling_falloff: 0.2,
+            points_per_circle: 15.0,
+            min_sampling: 2.0,
+            max_sampling: 1000.0,
+            curvature_window: 15.0,
+            max_error: 5.0,
+            end_factor: 2.0,
+            sample_share: 0.25,
+            line_cost: Some(7.5),
+            arc_cost: Some(9.0),
+            clothoid_cost: Some(15.0),
+            g0_cost: None,
+            g1_cost: None,
+            g2_cost: Some(0.0),
+            error_cost: 1.0,
+            free_error: 1.0,
+            shortness_cost: 2.0,
+            short_length: 30.0,
+            inflection_cost: 20.0,
+            g2_overlap: 2,
+            g1_overlap: 1,
+            transitions: Transitions::Covariance,
+            transition_peak: 2.0,
+            max_join_error: 10.0,
+            validation_rounds: 40,
+        };
+        match preset {
+            Preset::Default => default,
+            Preset::Accurate => {
+                Self { error_cost: 5.0, shortness_cost: 1.0, max_error: 2.0, points_per_circle: 30.0, ..default }
+            }
+            Preset::Loose => Self { error_cost: 0.2, max_error: 8.0, ..default },
+            Preset::LinesArcs => Self {
+                line_cost: Some(8.0),
+                arc_cost: Some(12.0),
+                clothoid_cost: None,
+                g1_cost: Some(0.0),
+                shortness_cost: 0.0,
+                ..default
+            },
+            Preset::Polyline => Self {
+                line_cost: Some(5.0),
+                arc_cost: None,
+                clothoid_cost: None,
+                g0_cost: Some(0.0),
+                shortness_cost: 0.0,
+                ..default
+            },
+            Preset::Clothoids => Self { line_cost: None, arc_cost: None, ..default },
+        }
+    }
+
+    /// The sizes of neighbourhood in which corners are looked for, px.
+    pub(crate) fn corner_windows(&self) -> [f64; 4] {
+        [1.0, 0.7, 0.5, 0.35].map(|share| share * self.corner_window)
     }
 }

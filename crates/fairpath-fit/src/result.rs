@@ -89,6 +89,14 @@ pub enum FitError {
         /// Size of their bounding box.
         extent: f64,
     },
+    /// The drawing is too large for its pixels.
+    #[error("the stroke is {extent:e} wide, more than {largest:e}; scale it down or set a larger pixel size")]
+    TooLarge {
+        /// Size of its bounding box.
+        extent: f64,
+        /// The largest that is accepted.
+        largest: f64,
+    },
     /// A coordinate is NaN or infinite.
     #[error("point {index} of the stroke has a coordinate that is not a finite number; remove or repair it")]
     NotFinite {
@@ -113,6 +121,7 @@ impl FitError {
     pub fn code(&self) -> &'static str {
         match self {
             Self::TooShort { .. } => "too-short",
+            Self::TooLarge { .. } => "too-large",
             Self::NotFinite { .. } => "not-finite",
             Self::BadOption { .. } => "bad-option",
         }

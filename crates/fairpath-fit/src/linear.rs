@@ -1,0 +1,48 @@
+//! Small dense linear algebra: symmetric positive definite systems of a few unknowns.
+
+/// Cholesky factor of the leading `n × n` block of a symmetric matrix, in place in the lower triangle; false if a pivot is not
+/// above `floor` times its diagonal entry.
+#[inline]
+pub(crate) fn cholesky<const N: usize>(a: &mut [[f64; N]; N], n: usize, floor: f64) -> bool {
+    for j in 0..n {
+        let mut d = a[j][j];
+        let limit = floor * d;
+        for k in 0..j {
+            d -= a[j][k] * a[j][k];
+        }
+        // Written so that a NaN fails too.
+        if !(d > limit && d > 0.0) {
+            return false;
+        }
+        let d = d.sqrt();
+        a[j][j] = d;
+        let inverse = 1.0 / d;
+        for i in j + 1..n {
+            let mut v = a[i][j];
+            for k in 0..j {
+                v -= a[i][k] * a[j][k];
+            }
+            a[i][j] = v * inverse;
+        }
+    }
+    true
+}
+
+/// Solves with a factor from [`cholesky`], in place.
+#[inline]
+pub(crate) fn solve<const N: usize>(l: &[[f64; N]; N], n: usize, b: &mut [f64; N]) {
+    for i in 0..n {
+        let mut v = b[i];
+        for k in 0..i {
+            v -= l[i][k] * b[k];
+        }
+        b[i] = v / l[i][i];
+    }
+    for i in (0..n).rev() {
+        let mut v = b[i];
+        for k in i + 1..n {
+            v -= l[k][i] * b[k];
+        }
+        b[i] = v / l[i][i];
+    }
+}

@@ -1,0 +1,139 @@
+//! Least-squares fit of a line, an arc or a clothoid to a run of points, by Gauss–Newton on the true distances.
+
+use crate::linear::{cholesky, solve};
+use crate::walk::{Datum, Primitive, Walker};
+use fairpath_curve::{Vec2, trig};
+
+/// Normal equations of the distances of a run of points to a primitive.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Normal {
+    /// `Jᵀ W J`, lower triangle, by start offset, heading, curvature, sharpness.
+    pub(crate) hessian: [[f64; 4]; 4],
+    /// `Jᵀ W d`.
+    pub(crate) gradient: [f64; 4],
+    /// `Σ w d²`.
+    pub(crate) energy: f64,
+    /// `Σ w`.
+    pub(crate) weight: f64,
+    /// `max |d|` (equation 2).
+    pub(crate) max: f64,
+}
+
+impl Normal {
+    pub(crate) const ZERO: Self =
+        Self { hessian: [[0.0; 4]; 4], gradient: [0.0; 4], energy: 0.0, weight: 0.0, max: 0.0 };
+
+    /// Adds a point with signed distance `d`, weight `w` and derivatives `row`.
+    #[inline]
+    pub(crate) fn add(&mut self, row: &[f64; 4], d: f64, w: f64) {
+        for i in 0..4 {
+            let v = w * row[i];
+            for j in 0..=i {
+                self.hessian[i][j] += v * row[j];
+            }
+            self.gradient[i] += v * d;
+        }
+        self.energy += w * d * d;
+        self.weight += w;
+        self.max = self.max.max(d.abs());
+    }
+
+    /// The Gauss–Newton step of the first `n` parameters (2 line, 3 arc, 4 clothoid), the others held; nothing if the points
+    /// do not determine it.
+    pub(crate) fn step(&self, n: usize) -> Option<[f64; 4]> {
+        let mut l = self.hessian;
+        if !cholesky(&mut l, n, 1e-12) {
+            return None;
+        }
+        let mut b = self.gradient;
+        solve(&l, n, &mut b);
+        for v in &mut b[n..] {
+            *v = 0.0;
+        }
+        b.iter().all(|v| v.is_finite()).then_some(b)
+    }
+}
+
+impl Primitive {
+    /// Applies a step of [`Normal::step`].
+    #[inline]
+    pub(crate) fn moved(&self, step: &[f64; 4]) -> Self {
+        let t = trig::unit(self.heading);
+        Self {
+            start: self.start + Vec2::new(-t.y, t.x) * step[0],
+            heading: self.heading + step[1],
+            kappa: self.kappa + step[2],
+            sharpness: self.sharpness + step[3],
+        }
+    }
+}
+
+/// The result of walking a primitive along its points.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Walked {
+    pub(crate) primitive: Primitive,
+    /// Arc length at the foot of the last point.
+    pub(crate) length: f64,
+    pub(crate) normal: Normal,
+}
+
+/// Walks along `data`, the ends counting `end_factor` times their weight (equation 1), after moving the primitive's start to the
+/// foot of the first point.
+pub(crate) fn walk(primitive: &Primitive, data: &[Datum], end_factor: f64) -> Walked {
+    let mut start = Walker::new(primitive);
+    start.project(data[0].point);
+    let primitive = Primitive {
+        start: start.position,
+        heading: primitive.heading + start.s * (primitive.kappa + 0.5 * primitive.sharpness * start.s),
+        kappa: start.kappa,
+        sharpness: primitive.sharpness,
+    };
+    let mut walker = Walker::new(&primitive);
+    let tangent = walker.tangent;
+    let mut normal = Normal::ZERO;
+    let last = data.len() - 1;
+    for (i, datum) in data.iter().enumerate() {
+        let d = if i == 0 { walker.offset(datum.point) } else { walker.project(datum.point) };
+        let w = if i == 0 || i == last { end_factor * datum.weight } else { datum.weight };
+        normal.add(&walker.row(tangent), d, w);
+    }
+    Walked { primitive, length: walker.s, normal }
+}
+
+/// The chord of a run of points, as a primitive.
+pub(crate) fn chord(data: &[Datum]) -> Primitive {
+    let v = data[data.len() - 1].point - data[0].point;
+    Primitive { start: data[0].point, heading: trig::angle_of(v), kappa: 0.0, sharpness: 0.0 }
+}
+
+/// The circle through the first, the middle and the last point, as a primitive from the first.
+pub(crate) fn circle_through(data: &[Datum]) -> Primitive {
+    let (a, m, b) = (data[0].point, data[data.len() / 2].point, data[data.len() - 1].point);
+    let (u, v) = (m - a, b - a);
+    let doubled_area = u.cross(v);
+    let product = (u.hypot2() * v.hypot2() * (b - m).hypot2()).sqrt();
+    // Seen from the middle point the stroke turns left where the end lies left of the first chord.
+    let kappa = if product > 0.0 { 2.0 * doubled_area / product } else { 0.0 };
+    // The angle between the tangent at the first point and the first chord is the inscribed angle over that chord.
+    let inscribed = trig::angle_of(Vec2::new((v - u).dot(v), doubled_area));
+    Primitive { start: a, heading: trig::angle_of(u) - inscribed, kappa, sharpness: 0.0 }
+}
+
+/// Fits the first `n` parameters from an initial guess by a fixed number of Gauss–Newton rounds.
+pub(crate) fn refine(initial: &Primitive, data: &[Datum], n: usize, rounds: usize, end_factor: f64) -> Walked {
+    let mut best = walk(initial, data, end_factor);
+    for _ in 0..rounds {
+        let Some(step) = best.normal.step(n) else { break };
+        let next = walk(&best.primitive.moved(&step), data, end_factor);
+        // A NaN is not an improvement either.
+        if !(next.normal.energy <= best.normal.energy) {
+            break;
+        }
+        let gain = best.normal.energy - next.normal.energy;
+        best = next;
+        if gain < 1e-3 * best.normal.energy {
+            break;
+        }
+    }
+    best
+}

@@ -1,0 +1,331 @@
+//! Candidate primitives for every run of samples (section 3.3 of Baran et al. 2010).
+
+use crate::linear::{cholesky, solve};
+use crate::options::FitOptions;
+use crate::primitive_fit::{Normal, chord, circle_through, walk};
+use crate::track::{Shape, Track};
+use crate::walk::{Datum, Primitive, Walker};
+use fairpath_curve::{Kind, trig};
+
+/// A primitive fitted to the samples `first..=last`, with what the graph needs to know of it.
+#[derive(Clone, Debug)]
+pub(crate) struct Candidate {
+    pub(crate) kind: Kind,
+    pub(crate) first: u32,
+    pub(crate) last: u32,
+    pub(crate) primitive: Primitive,
+    pub(crate) length: f64,
+    /// Largest distance of the data to it, px: τ of equation 2.
+    pub(crate) error: f64,
+    /// Sum of the weights of its data, px.
+    pub(crate) weight: f64,
+    /// Its state where it may be joined: at its first and second sample, and at its last and last but one.
+    pub(crate) head: [JoinState; 2],
+    pub(crate) tail: [JoinState; 2],
+    /// Kind's cost, deviation, shortness and inflection (section 3.4).
+    pub(crate) cost: f64,
+}
+
+/// How a primitive passes a sample, and how firmly its data hold it there.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct JoinState {
+    /// Arc length along the primitive, px.
+    pub(crate) s: f64,
+    /// Signed distance from the primitive to the sample, px.
+    pub(crate) offset: f64,
+    pub(crate) heading: f64,
+    pub(crate) curvature: f64,
+    /// Covariance of position across the curve, heading and curvature for a unit of weighted squared distance: the upper
+    /// triangle by rows.
+    pub(crate) covariance: [f64; 6],
+}
+
+impl Candidate {
+    pub(crate) fn curvature_at_end(&self) -> f64 {
+        self.primitive.kappa + self.primitive.sharpness * self.length
+    }
+
+    pub(crate) fn has_inflection(&self) -> bool {
+        self.primitive.kappa * self.curvature_at_end() < 0.0
+    }
+}
+
+/// Penalty of deviation: `p(τ) = w_E max(τ − 1, 0)²` (section 3.4).
+#[inline]
+pub(crate) fn penalty(error: f64, options: &FitOptions) -> f64 {
+    let excess = (error - options.free_error).max(0.0);
+    options.error_cost * excess * excess
+}
+
+/// A kind of primitive that is allowed, and the fit of the run before to start from.
+struct Family {
+    kind: Kind,
+    cost: f64,
+    unknowns: usize,
+    /// Fewest sample intervals.
+    fewest: usize,
+    warm: Option<Primitive>,
+    misses: usize,
+}
+
+/// All candidates, in the order of their first sample.
+pub(crate) fn candidates(track: &Track, options: &FitOptions) -> Vec<Candidate> {
+    let starts = track.turn;
+    let end = if track.shape == Shape::Ring { 2 * track.turn } else { track.turn };
+    let mut out = Vec::new();
+    for first in 0..starts {
+        let mut families: Vec<Family> = [
+            (Kind::Line, options.line_cost, 2, 1),
+            (Kind::Arc, options.arc_cost, 3, 2),
+            (Kind::Clothoid, options.clothoid_cost, 4, 3),
+        ]
+        .into_iter()
+        .filter_map(|(kind, cost, unknowns, fewest)| {
+            Some(Family { kind, cost: cost?, unknowns, fewest, warm: None, misses: 0 })
+        })
+        .collect();
+        // A primitive may not run through a corner, nor more than once around.
+        let stop = (first + 1..=end).find(|&j| track.corner[j]).unwrap_or(end).min(first + track.turn);
+        for last in first + 1..=stop {
+            let data = track.run(first, last);
+            for family in &mut families {
+                if family.misses < PATIENCE && last - first >= family.fewest {
+                    extend(family, data, (first, last), track, options, &mut out);
+                }
+            }
+            if families.iter().all(|f| f.misses >= PATIENCE) {
+                break;
+            }
+        }
+    }
+    out
+}
+
+/// A kind of primitive is given up after this many runs in sequence that it does not fit.
+const PATIENCE: usize = 2;
+
+/// Fits one kind to a run and keeps it if it is near enough.
+fn extend(
+    family: &mut Family,
+    data: &[Datum],
+    span: (usize, usize),
+    track: &Track,
+    options: &FitOptions,
+    out: &mut Vec<Candidate>,
+) {
+    let guess = match (&family.warm, family.kind) {
+        (Some(p), _) => *p,
+        (None, Kind::Line) => chord(data),
+        (None, _) => circle_through(data),
+    };
+    let mut fit = walk(&guess, data, options.end_factor);
+    let rounds = if family.warm.is_some() { 2 } else { 4 };
+    for round in 0..rounds {
+        let Some(step) = fit.normal.step(family.unknowns) else { break };
+        let next = walk(&fit.primitive.moved(&step), data, options.end_factor);
+        if !(next.normal.energy <= fit.normal.energy) {
+            break;
+        }
+        let settled = fit.normal.energy - next.normal.energy < 0.02 * next.normal.energy + 0.01 && round > 0;
+        fit = next;
+        if settled {
+            break;
+        }
+    }
+    let extent = data[data.len() - 1].s - data[0].s;
+    let sound = fit.normal.energy.is_finite() && fit.length > 0.25 * extent && fit.length < 1.5 * extent + 4.0;
+    if !sound || fit.normal.max > options.max_error {
+        family.misses += 1;
+        family.warm = sound.then_some(fit.primitive);
+        return;
+    }
+    family.misses = 0;
+    family.warm = Some(fit.primitive);
+    let free = make(family, &fit.primitive, fit.length, &fit.normal, span, track, options);
+    let inflects = family.kind == Kind::Clothoid && free.has_inflection();
+    out.push(free);
+    if inflects {
+        constrained(family, &fit, data, span, track, options, out);
+    }
+}
+
+/// The clothoids without inflection that come nearest to one with (section 3.8).
+///
+/// The best clothoid under a sign constraint has zero curvature at one end. Which end is flat decides the sign, so there are two;
+/// each is found from the free fit's normal equations with the one condition added, and corrected once.
+fn constrained(
+    family: &Family,
+    free: &crate::primitive_fit::Walked,
+    data: &[Datum],
+    span: (usize, usize),
+    track: &Track,
+    options: &FitOptions,
+    out: &mut Vec<Candidate>,
+) {
+    for flat_start in [true, false] {
+        let mut fit = *free;
+        for _ in 0..2 {
+            let Some(p) = flat_end_step(&fit.primitive, fit.length, &fit.normal, flat_start) else { break };
+            fit = walk(&p, data, options.end_factor);
+        }
+        // Walking moves the start by a hair; the condition is set again exactly.
+        let mut p = fit.primitive;
+        if flat_start {
+            p.kappa = 0.0;
+        } else {
+            p.sharpness = -p.kappa / fit.length;
+        }
+        if !(fit.normal.max <= options.max_error) || !(fit.length > 0.0) || p.sharpness == 0.0 {
+            continue;
+        }
+        out.push(make(family, &p, fit.length, &fit.normal, span, track, options));
+    }
+}
+
+/// One Gauss–Newton step of a clothoid whose curvature is zero at one end.
+fn flat_end_step(p: &Primitive, length: f64, normal: &Normal, flat_start: bool) -> Option<Primitive> {
+    // With t = (offset, heading, x): curvature = 0 and sharpness = x, or curvature = −x length and sharpness = x.
+    let by = if flat_start { [0.0, 1.0] } else { [-length, 1.0] };
+    let now = if flat_start { p.sharpness } else { -p.kappa / length };
+    let full = |i: usize, j: usize| normal.hessian[i.max(j)][i.min(j)];
+    // Moving to the condition first: the change of curvature and sharpness at x = now.
+    let base = [by[0] * now - p.kappa, by[1] * now - p.sharpness];
+    let mut a = [[0.0; 3]; 3];
+    let mut b = [0.0; 3];
+    for i in 0..3 {
+        for j in 0..=i {
+            a[i][j] = match (i, j) {
+                (2, 2) => by[0] * by[0] * full(2, 2) + 2.0 * by[0] * by[1] * full(2, 3) + by[1] * by[1] * full(3, 3),
+                (2, j) => by[0] * full(2, j) + by[1] * full(3, j),
+                (i, j) => full(i, j),
+            };
+        }
+        let residual = |k: usize| normal.gradient[k] - full(k, 2) * base[0] - full(k, 3) * base[1];
+        b[i] = if i < 2 { residual(i) } else { by[0] * residual(2) + by[1] * residual(3) };
+    }
+    if !cholesky(&mut a, 3, 1e-12) {
+        return None;
+    }
+    solve(&a, 3, &mut b);
+    let x = now + b[2];
+    let step = [b[0], b[1], by[0] * x - p.kappa, by[1] * x - p.sharpness];
+    step.iter().all(|v| v.is_finite()).then(|| p.moved(&step))
+}
+
+/// Completes a candidate: its states at the joins and its cost.
+fn make(
+    family: &Family,
+    primitive: &Primitive,
+    length: f64,
+    normal: &Normal,
+    (first, last): (usize, usize),
+    track: &Track,
+    options: &FitOptions,
+) -> Candidate {
+    let error = normal.max;
+    let short = (options.short_length - length).max(0.0);
+    let mut candidate = Candidate {
+        kind: family.kind,
+        first: first as u32,
+        last: last as u32,
+        primitive: *primitive,
+        length,
+        error,
+        weight: normal.weight,
+        head: [JoinState::NONE; 2],
+        tail: [JoinState::NONE; 2],
+        cost: family.cost + penalty(error, options) + options.shortness_cost * short * short,
+    };
+    if candidate.has_inflection() {
+        candidate.cost += options.inflection_cost;
+    }
+    let inverse = inverse(normal, family.unknowns);
+    let mut walker = Walker::new(primitive);
+    let tangent = walker.tangent;
+    let n = family.unknowns;
+    let inner = (first + 1).min(last);
+    candidate.head[0] = JoinState::at(&walker, tangent, track, first, &inverse, n, primitive);
+    walker.project(track.sample(inner));
+    candidate.head[1] = JoinState::at(&walker, tangent, track, inner, &inverse, n, primitive);
+    let inner = (last - 1).max(first);
+    walker.advance(length - (track.data[track.samples[last]].s - track.data[track.samples[inner]].s) - walker.s);
+    walker.project(track.sample(inner));
+    candidate.tail[1] = JoinState::at(&walker, tangent, track, inner, &inverse, n, primitive);
+    walker.advance(length - walker.s);
+    candidate.tail[0] = JoinState::at(&walker, tangent, track, last, &inverse, n, primitive);
+    candidate
+}
+
+/// The inverse of the leading `n × n` block of the normal matrix; huge where the data do not determine it.
+fn inverse(normal: &Normal, n: usize) -> [[f64; 4]; 4] {
+    let mut l = normal.hessian;
+    // A little firmness, as of a tenth of the data's weight seen over a pixel, keeps undetermined fits finite.
+    let scale = normal.weight * 1e-9;
+    for (i, row) in l.iter_mut().enumerate() {
+        row[i] += scale;
+    }
+    let mut out = [[0.0; 4]; 4];
+    if !cholesky(&mut l, n, 1e-14) {
+        for (i, row) in out.iter_mut().enumerate().take(n) {
+            row[i] = 1e3;
+        }
+        return out;
+    }
+    for i in 0..n {
+        let mut e = [0.0; 4];
+        e[i] = 1.0;
+        solve(&l, n, &mut e);
+        out[i] = e;
+    }
+    out
+}
+
+impl JoinState {
+    const NONE: Self = Self { s: 0.0, offset: 0.0, heading: 0.0, curvature: 0.0, covariance: [0.0; 6] };
+
+    fn at(
+        walker: &Walker,
+        tangent: fairpath_curve::Vec2,
+        track: &Track,
+        sample: usize,
+        inverse: &[[f64; 4]; 4],
+        n: usize,
+        p: &Primitive,
+    ) -> Self {
+        let s = walker.s;
+        // Rows of the change of position across the curve, heading and curvature by the primitive's unknowns.
+        let mut rows = [walker.row(tangent), [0.0, 1.0, s, 0.5 * s * s], [0.0, 0.0, 1.0, s]];
+        for row in &mut rows {
+            for v in &mut row[n..] {
+                *v = 0.0;
+            }
+        }
+        let times: [[f64; 4]; 3] = rows.map(|row| {
+            let mut v = [0.0; 4];
+            for (i, out) in v.iter_mut().enumerate().take(n) {
+                *out = (0..n).map(|j| inverse[i][j] * row[j]).sum();
+            }
+            v
+        });
+        let dot = |a: &[f64; 4], b: &[f64; 4]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3];
+        Self {
+            s,
+            offset: walker.offset(track.sample(sample)),
+            heading: p.heading + s * (p.kappa + 0.5 * p.sharpness * s),
+            curvature: walker.kappa,
+            covariance: [
+                dot(&rows[0], &times[0]),
+                dot(&rows[0], &times[1]),
+                dot(&rows[0], &times[2]),
+                dot(&rows[1], &times[1]),
+                dot(&rows[1], &times[2]),
+                dot(&rows[2], &times[2]),
+            ],
+        }
+    }
+
+    /// Difference of two headings as the least turn between them.
+    pub(crate) fn turn_to(&self, other: &Self) -> f64 {
+        trig::wrap_angle(other.heading - self.heading)
+    }
+}

@@ -1,0 +1,213 @@
+//! A chain of primitives as the merge sees it, and its distance to the data (section 3.6 of Baran et al. 2010).
+
+use crate::walk::{Datum, Primitive, Walker};
+use fairpath_curve::{Continuity, Kind, Point, Segment, Vec2, trig};
+use std::ops::Range;
+
+/// Number of parameters of a piece: x, y, heading, curvature at start and end, length.
+pub(crate) const Q: usize = 6;
+pub(crate) const HEADING: usize = 2;
+pub(crate) const KAPPA0: usize = 3;
+pub(crate) const KAPPA1: usize = 4;
+pub(crate) const LENGTH: usize = 5;
+
+/// A primitive in a chain, px.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Piece {
+    pub(crate) kind: Kind,
+    pub(crate) q: [f64; Q],
+    /// Sign that the curvature must keep at start and end, or 0 where it is free (section 3.8).
+    pub(crate) sign: [i8; 2],
+}
+
+impl Piece {
+    pub(crate) fn segment(&self) -> Segment {
+        let [x, y, heading, kappa0, kappa1, length] = self.q;
+        Segment { start: Point::new(x, y), heading, length, kappa0, kappa1 }
+    }
+}
+
+/// Pieces with their joins and the data that they shall follow.
+#[derive(Clone, Debug)]
+pub(crate) struct Chain<'a> {
+    pub(crate) pieces: Vec<Piece>,
+    /// Between neighbours; one more for a closed chain.
+    pub(crate) joins: Vec<Continuity>,
+    pub(crate) data: &'a [Datum],
+    /// For every G0 join between neighbours, in order: which datum is the corner.
+    pub(crate) corners: Vec<usize>,
+    pub(crate) closed: bool,
+    /// Weight of the ends and corners relative to the other data.
+    pub(crate) end_factor: f64,
+}
+
+/// Normal equations of one piece.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct PieceNormal {
+    /// Lower triangle.
+    pub(crate) hessian: [[f64; Q]; Q],
+    /// Descent direction `Jᵀ W d`.
+    pub(crate) gradient: [f64; Q],
+    /// `max |d|`.
+    pub(crate) error: f64,
+}
+
+/// The distances of all data to a chain.
+#[derive(Clone, Debug)]
+pub(crate) struct Measured {
+    pub(crate) normals: Vec<PieceNormal>,
+    /// `Σ w d²`.
+    pub(crate) energy: f64,
+}
+
+impl PieceNormal {
+    const ZERO: Self = Self { hessian: [[0.0; Q]; Q], gradient: [0.0; Q], error: 0.0 };
+
+    #[inline]
+    fn add(&mut self, row: &[f64; Q], d: f64, w: f64) {
+        for i in 0..Q {
+            let v = w * row[i];
+            for j in 0..=i {
+                self.hessian[i][j] += v * row[j];
+            }
+            self.gradient[i] += v * d;
+        }
+    }
+}
+
+impl Chain<'_> {
+    /// Runs of pieces between G0 joins, with the data that belong to each, corners to both sides.
+    fn stretches(&self) -> Vec<(Range<usize>, Range<usize>)> {
+        let mut out = Vec::new();
+        let (mut piece, mut datum) = (0, 0);
+        let mut corners = self.corners.iter();
+        for k in 0..self.pieces.len() - 1 {
+            if self.joins[k] == Continuity::G0 {
+                let corner = *corners.next().expect("every G0 join has its datum");
+                out.push((piece..k + 1, datum..corner + 1));
+                (piece, datum) = (k + 1, corner);
+            }
+        }
+        out.push((piece..self.pieces.len(), datum..self.data.len()));
+        out
+    }
+
+    /// Walks along all data.
+    pub(crate) fn measure(&self) -> Measured {
+        let mut normals = vec![PieceNormal::ZERO; self.pieces.len()];
+        let mut energy = 0.0;
+        for (pieces, data) in self.stretches() {
+            energy += self.measure_stretch(pieces, data, &mut normals);
+        }
+        Measured { normals, energy }
+    }
+
+    fn measure_stretch(&self, pieces: Range<usize>, data: Range<usize>, normals: &mut [PieceNormal]) -> f64 {
+        let mut k = pieces.start;
+        let mut energy = 0.0;
+        let (first, last) = (data.start, data.end - 1);
+        // The seam of a smoothly closed chain is no end: its data are ordinary.
+        let ring = self.closed && self.joins[self.pieces.len() - 1] != Continuity::G0;
+        let (open_start, open_end) = (!(ring && first == 0), !(ring && last + 1 == self.data.len()));
+        let mut walker = Walker::new(&primitive(&self.pieces[k]));
+        for i in data {
+            let datum = self.data[i];
+            if i == first && open_start {
+                let (v, w) = (datum.point - walker.position, self.end_factor * datum.weight);
+                normals[k].add(&[1.0, 0.0, 0.0, 0.0, 0.0, 0.0], v.x, w);
+                normals[k].add(&[0.0, 1.0, 0.0, 0.0, 0.0, 0.0], v.y, w);
+                normals[k].error = normals[k].error.max(v.hypot2().sqrt());
+                energy += w * v.hypot2();
+                continue;
+            }
+            if i == last && open_end {
+                // Pieces that no datum reached still lie between here and the end.
+                if k + 1 < pieces.end {
+                    k = pieces.end - 1;
+                    walker = Walker::new(&primitive(&self.pieces[k]));
+                }
+                let length = self.pieces[k].q[LENGTH];
+                walker.advance(length - walker.s);
+                let (v, w) = (datum.point - walker.position, self.end_factor * datum.weight);
+                for (n, d) in [(Vec2::new(1.0, 0.0), v.x), (Vec2::new(0.0, 1.0), v.y)] {
+                    let mut row = row(&walker, n, &self.pieces[k].q);
+                    row[LENGTH] += n.dot(walker.tangent);
+                    normals[k].add(&row, d, w);
+                }
+                normals[k].error = normals[k].error.max(v.hypot2().sqrt());
+                energy += w * v.hypot2();
+                continue;
+            }
+            let mut d = walker.project(datum.point);
+            while k + 1 < pieces.end && walker.s > self.pieces[k].q[LENGTH] {
+                let beyond = walker.s - self.pieces[k].q[LENGTH];
+                k += 1;
+                walker = Walker::new(&primitive(&self.pieces[k]));
+                walker.advance(beyond);
+                d = walker.project(datum.point);
+            }
+            let q = &self.pieces[k].q;
+            let beyond = (walker.s < 0.0 && k == pieces.start && open_start)
+                || (walker.s > q[LENGTH] && k + 1 == pieces.end && open_end);
+            let row = if beyond {
+                // Beyond the end the nearest point is the end itself.
+                let at_end = walker.s > 0.0;
+                walker.advance(if at_end { q[LENGTH] - walker.s } else { -walker.s });
+                let v = datum.point - walker.position;
+                d = v.hypot2().sqrt();
+                let n = if d > 0.0 { v / d } else { Vec2::ZERO };
+                let mut row = row(&walker, n, q);
+                if at_end {
+                    row[LENGTH] += n.dot(walker.tangent);
+                }
+                row
+            } else {
+                row(&walker, Vec2::new(-walker.tangent.y, walker.tangent.x), q)
+            };
+            normals[k].add(&row, d, datum.weight);
+            normals[k].error = normals[k].error.max(d.abs());
+            energy += datum.weight * d * d;
+        }
+        energy
+    }
+}
+
+fn primitive(piece: &Piece) -> Primitive {
+    let [x, y, heading, kappa0, kappa1, length] = piece.q;
+    Primitive { start: Vec2::new(x, y), heading, kappa: kappa0, sharpness: (kappa1 - kappa0) / length }
+}
+
+/// Derivatives of the position's component along `n` by the piece's parameters, arc length held.
+#[inline]
+fn row(walker: &Walker, n: Vec2, q: &[f64; Q]) -> [f64; Q] {
+    let [by_heading, by_kappa, by_sharpness] = walker.jacobian().map(|v| n.dot(v));
+    let per_length = by_sharpness / q[LENGTH];
+    let sharpness = (q[KAPPA1] - q[KAPPA0]) / q[LENGTH];
+    [n.x, n.y, by_heading, by_kappa - per_length, per_length, -sharpness * per_length]
+}
+
+/// The pose at the end of a piece: x, y, heading, curvature; and its derivatives by the piece's parameters.
+pub(crate) fn end_with_jacobian(q: &[f64; Q]) -> ([f64; 4], [[f64; Q]; 4]) {
+    let [x, y, heading, kappa0, kappa1, length] = *q;
+    let s = Segment { start: Point::new(x, y), heading, length, kappa0, kappa1 };
+    let j = s.position_jacobian(length);
+    let end = s.end_pose();
+    let along = j.length + trig::unit(end.heading);
+    let half = 0.5 * length;
+    (
+        [end.point.x, end.point.y, end.heading, kappa1],
+        [
+            [1.0, 0.0, j.heading.x, j.kappa0.x, j.kappa1.x, along.x],
+            [0.0, 1.0, j.heading.y, j.kappa0.y, j.kappa1.y, along.y],
+            [0.0, 0.0, 1.0, half, half, 0.5 * (kappa0 + kappa1)],
+            [0.0, 0.0, 0.0, 0.0, 1.0, 0.0],
+        ],
+    )
+}
+
+/// The pose at the end of a piece: x, y, heading, curvature.
+pub(crate) fn end(q: &[f64; Q]) -> [f64; 4] {
+    let [x, y, heading, kappa0, kappa1, length] = *q;
+    let p = Segment { start: Point::new(x, y), heading, length, kappa0, kappa1 }.end_pose();
+    [p.point.x, p.point.y, p.heading, p.curvature]
+}

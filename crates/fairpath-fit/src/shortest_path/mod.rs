@@ -1,0 +1,137 @@
+//! Sketching clothoid splines using shortest paths (Baran, Lehtinen and Popović 2010): stroke in, spline out.
+
+mod candidates;
+mod chain;
+mod graph;
+mod merge;
+mod search;
+mod transition;
+
+use crate::clean::{Cleaned, clean};
+use crate::options::FitOptions;
+use crate::result::{self, Fit, FitError, Observer, Report, Stages, Step, Warning};
+use crate::stroke::Stroke;
+use crate::track::{Shape, Track, prepare};
+use chain::Chain;
+use fairpath_curve::{Continuity, Segment, Spline, Vec2, trig};
+use graph::{Graph, Node, Path};
+use merge::{Effort, merge};
+
+/// Effort of the final merge.
+const FINAL: Effort = Effort { rounds: 30, tolerance: 1e-4 };
+
+/// Fits a stroke.
+pub(crate) fn fit(
+    stroke: &Stroke,
+    options: &FitOptions,
+    observer: &mut dyn Observer,
+    stages: Option<&mut Stages>,
+) -> Result<Fit, FitError> {
+    observer.step(Step::Preprocess);
+    let cleaned = clean(&stroke.points, options.pixel_size)?;
+    let track = prepare(&cleaned, options);
+    let mut warnings = Vec::new();
+    if track.trimmed > 0 {
+        warnings.push(Warning {
+            code: "closed-by-trimming".into(),
+            text: format!("the ends of the closed stroke overshoot: {} points were cut off", track.trimmed),
+        });
+    }
+    observer.step(Step::Candidates);
+    let candidates = candidates::candidates(&track, options);
+    observer.step(Step::Graph);
+    let mut graph = Graph::new(&candidates, &track, options);
+    observer.step(Step::Search);
+    let found = search::search(&mut graph, &track, options);
+    observer.step(Step::Merge);
+    let mut report = Report {
+        points: stroke.points.len(),
+        samples: track.turn + usize::from(track.shape == Shape::Open),
+        nodes: graph.nodes.len(),
+        edges: graph.computed,
+        ..Report::default()
+    };
+    let mut merged = None;
+    if let Some((path, validations)) = &found {
+        report.cost = path.cost;
+        report.validations = *validations;
+        merged = merge_path(&graph, path, &track, options);
+    }
+    let (segments, joins, closed) = merged.unwrap_or_else(|| {
+        warnings.push(Warning {
+            code: "fell-back-to-polyline".into(),
+            text: "no fair curve was found; the stroke is given as a polyline".into(),
+        });
+        polyline(&track)
+    });
+    let segments: Vec<Segment> = segments.iter().map(|s| restored(s, &cleaned)).collect();
+    let spline = Spline::new(segments, joins, closed).unwrap_or_else(|e| panic!("{e}"));
+    describe(&mut report, &spline, stroke, options);
+    if let Some(stages) = stages {
+        *stages = self::stages(&graph, found.as_ref().map(|f| &f.0), &track, &cleaned);
+    }
+    observer.step(Step::Done);
+    Ok(Fit { spline, report, warnings })
+}
+
+type Parts = (Vec<Segment>, Vec<Continuity>, bool);
+
+fn merge_path(graph: &Graph, path: &Path, track: &Track, options: &FitOptions) -> Option<Parts> {
+    let nodes: Vec<Node> = path.nodes.iter().map(|&i| graph.nodes[i as usize]).collect();
+    let mut joins = path.joins.clone();
+    let closed = track.shape != Shape::Open;
+    if track.shape == Shape::Loop {
+        joins.push(Continuity::G0);
+    }
+    let mut chain: Chain = search::chain(graph.candidates, &nodes, joins, track, closed, options);
+    merge(&mut chain, FINAL)?;
+    Some((chain.pieces.iter().map(chain::Piece::segment).collect(), chain.joins, closed))
+}
+
+/// The samples joined by lines: what is left where nothing fits.
+fn polyline(track: &Track) -> Parts {
+    let closed = track.shape != Shape::Open;
+    let points: Vec<Vec2> = (0..=track.turn).map(|i| track.sample(i)).collect();
+    let segments: Vec<Segment> = points
+        .windows(2)
+        .filter(|p| p[0] != p[1])
+        .map(|p| Segment::line(p[0].to_point(), trig::angle_of(p[1] - p[0]), (p[1] - p[0]).hypot2().sqrt()))
+        .collect();
+    let joins = vec![Continuity::G0; segments.len() - usize::from(!closed)];
+    (segments, joins, closed)
+}
+
+/// A segment in pixels in the stroke's unit and frame.
+fn restored(s: &Segment, cleaned: &Cleaned) -> Segment {
+    Segment {
+        start: cleaned.restore(s.start.to_vec2()),
+        heading: s.heading,
+        length: s.length * cleaned.scale,
+        kappa0: s.kappa0 / cleaned.scale,
+        kappa1: s.kappa1 / cleaned.scale,
+    }
+}
+
+fn describe(_report: &mut Report, _spline: &Spline, _stroke: &Stroke, _options: &FitOptions) {}
+
+fn stages(graph: &Graph, path: Option<&Path>, track: &Track, cleaned: &Cleaned) -> Stages {
+    let n = track.turn + usize::from(track.shape == Shape::Open);
+    Stages {
+        points: cleaned.points.iter().map(|p| cleaned.restore(*p)).collect(),
+        closed: track.shape != Shape::Open,
+        samples: (0..n).map(|i| cleaned.restore(track.sample(i))).collect(),
+        corners: (0..n).filter(|&i| track.corner[i]).collect(),
+        candidates: graph
+            .candidates
+            .iter()
+            .map(|c| result::Candidate {
+                segment: restored(&c.primitive.segment(c.length), cleaned),
+                first: c.first as usize,
+                last: c.last as usize,
+                error: c.error * cleaned.scale,
+            })
+            .collect(),
+        path: path
+            .map_or_else(Vec::new, |p| p.nodes.iter().map(|&i| graph.nodes[i as usize].candidate as usize).collect()),
+    }
+}

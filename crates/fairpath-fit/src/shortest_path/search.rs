@@ -1,0 +1,195 @@
+//! Finding a path whose joins hold (section 3.5 of Baran et al. 2010): the shortest path is verified join by join, joins that turn out
+//! dearer than estimated are repriced, and the search is repeated until nothing changes.
+
+use super::candidates::{Candidate, penalty};
+use super::chain::{Chain, Piece};
+use super::graph::{Distances, Edge, Goal, Graph, Node, Path};
+use super::merge::{Effort, merge};
+use super::transition::overlap;
+use crate::options::FitOptions;
+use crate::track::{Shape, Track};
+use fairpath_curve::{Continuity, Kind};
+
+/// Effort of verifying one join.
+const VERIFY: Effort = Effort { rounds: 8, tolerance: 1e-2 };
+
+/// The shortest path through the graph whose joins have all been verified, and how many verifications it took.
+pub(crate) fn search(graph: &mut Graph, track: &Track, options: &FitOptions) -> Option<(Path, usize)> {
+    let mut verifications = 0;
+    let open = verified(graph, Goal::End, track, options, &mut verifications);
+    if track.shape != Shape::Ring {
+        return open.map(|p| (p, verifications));
+    }
+    // Once around from the node in the middle of what was found before, three times (section 3.5).
+    let mut best: Option<Path> = None;
+    let mut from = middle(graph, &open?, track);
+    for _ in 0..3 {
+        let Some(path) = verified(graph, Goal::Around(from), track, options, &mut verifications) else { break };
+        from = middle(graph, &path, track);
+        if best.as_ref().is_none_or(|b| path.cost < b.cost) {
+            best = Some(path);
+        }
+    }
+    best.map(|p| (p, verifications))
+}
+
+/// The node of a path that covers the place half a turn from its start.
+fn middle(graph: &Graph, path: &Path, track: &Track) -> u32 {
+    let start = graph.nodes[path.nodes[0] as usize].first as usize;
+    let wanted = track.turn / 2;
+    let at = |i: &&u32| {
+        let n = &graph.nodes[**i as usize];
+        let from = (n.first as usize + track.turn - start) % track.turn;
+        let centre = from + (n.last - n.first) as usize / 2;
+        centre.abs_diff(wanted)
+    };
+    *path.nodes.iter().min_by_key(at).unwrap_or(&path.nodes[0])
+}
+
+fn verified(
+    graph: &mut Graph,
+    goal: Goal,
+    track: &Track,
+    options: &FitOptions,
+    verifications: &mut usize,
+) -> Option<Path> {
+    let mut distances = Distances::new(graph, goal);
+    let mut path = distances.path()?;
+    for _ in 0..options.validation_rounds {
+        let mut dearer: Vec<u32> = Vec::new();
+        if let Some(edge) = pinched(graph, &path) {
+            graph.forbid(edge);
+            dearer.push(edge.from);
+        }
+        for edge in path.edges().collect::<Vec<_>>() {
+            if graph.is_verified(edge) {
+                continue;
+            }
+            *verifications += 1;
+            let deviation = verify(graph, edge, track, options);
+            if graph.learn(edge, deviation) {
+                dearer.push(edge.from);
+            }
+        }
+        if dearer.is_empty() {
+            break;
+        }
+        distances.repair(graph, dearer);
+        path = distances.path()?;
+    }
+    // What remains pinched after the last round cannot be merged: it is forbidden without further verification.
+    while let Some(edge) = pinched(graph, &path) {
+        graph.forbid(edge);
+        distances.repair(graph, [edge.from]);
+        path = distances.path()?;
+    }
+    Some(path)
+}
+
+/// The dearer of two G2 joins with which lines on both sides would straighten a clothoid.
+fn pinched(graph: &mut Graph, path: &Path) -> Option<Edge> {
+    let edges: Vec<Edge> = path.edges().collect();
+    let kind = |graph: &Graph, node: u32| graph.candidates[graph.nodes[node as usize].candidate as usize].kind;
+    let n = edges.len();
+    let pairs = if path.joins.len() == path.nodes.len() { n } else { n.saturating_sub(1) };
+    for i in 0..pairs {
+        let (a, b) = (edges[i], edges[(i + 1) % n]);
+        if a.level == Continuity::G2
+            && b.level == Continuity::G2
+            && kind(graph, a.from) == Kind::Line
+            && kind(graph, a.to) == Kind::Clothoid
+            && kind(graph, b.to) == Kind::Line
+        {
+            return Some(if graph.cost_now(a) > graph.cost_now(b) { a } else { b });
+        }
+    }
+    None
+}
+
+/// Enforces one join between its two candidates and gives the extra cost of deviation that results; infinite where they cannot be
+/// joined.
+fn verify(graph: &Graph, edge: Edge, track: &Track, options: &FitOptions) -> f64 {
+    let ends = [edge.from, edge.to].map(|i| graph.nodes[i as usize]);
+    let (u, v) = (&graph.candidates[ends[0].candidate as usize], &graph.candidates[ends[1].candidate as usize]);
+    let mut chain = chain(graph.candidates, &ends, vec![edge.level], track, false, options);
+    let Some(measured) = merge(&mut chain, VERIFY) else { return f64::INFINITY };
+    let (a, b) = (measured.normals[0].error, measured.normals[1].error);
+    (penalty(a, options) - penalty(u.error, options)).max(0.0)
+        + (penalty(b, options) - penalty(v.error, options)).max(0.0)
+}
+
+/// The chain of a sequence of nodes, each trimmed to the middle of its overlaps (section 3.6).
+pub(crate) fn chain<'a>(
+    candidates: &[Candidate],
+    nodes: &[Node],
+    joins: Vec<Continuity>,
+    track: &'a Track,
+    closed: bool,
+    options: &FitOptions,
+) -> Chain<'a> {
+    let n = nodes.len();
+    let before = |k: usize| if k > 0 { Some(joins[k - 1]) } else { joins.get(n - 1).copied() };
+    let signs = allowed_signs(candidates, nodes, &joins);
+    let mut pieces = Vec::with_capacity(n);
+    let mut corners = Vec::new();
+    // Positions run on through the start of a ring.
+    let mut end = nodes[0].first as usize;
+    let mut position = end;
+    for (k, node) in nodes.iter().enumerate() {
+        let c = &candidates[node.candidate as usize];
+        if k > 0 {
+            position = end - overlap(joins[k - 1], options);
+        }
+        end = position + (node.last - node.first) as usize;
+        let head = before(k).map_or(0, |j| overlap(j, options));
+        let tail = joins.get(k).map_or(0, |&j| overlap(j, options));
+        let from = match head {
+            0 => c.head[0].s,
+            1 => 0.5 * (c.head[0].s + c.head[1].s),
+            _ => c.head[1].s,
+        };
+        let to = match tail {
+            0 => c.tail[0].s,
+            1 => 0.5 * (c.tail[0].s + c.tail[1].s),
+            _ => c.tail[1].s,
+        };
+        let to = to.max(from + 1.0);
+        let part = c.primitive.segment(c.length).subsegment(from, to);
+        pieces.push(Piece {
+            kind: c.kind,
+            q: [part.start.x, part.start.y, part.heading, part.kappa0, part.kappa1, part.length],
+            sign: signs[k],
+        });
+        if k + 1 < n && joins[k] == Continuity::G0 {
+            corners.push(track.samples[end] - track.samples[nodes[0].first as usize]);
+        }
+    }
+    let start = nodes[0].first as usize;
+    let ring = closed && track.shape == Shape::Ring;
+    let last = if ring { start + track.turn } else { end };
+    let data = track.run(start, last);
+    // The last datum of a ring is its first.
+    let data = if ring { &data[..data.len() - 1] } else { data };
+    Chain { pieces, joins, data, corners, closed, end_factor: options.end_factor }
+}
+
+/// The signs that curvatures must keep so that no inflection arises which the path has not paid for (section 3.8): those of the path,
+/// lifted for arcs, for clothoids that inflect anyway, and where a G2 join changes sign.
+fn allowed_signs(candidates: &[Candidate], nodes: &[Node], joins: &[Continuity]) -> Vec<[i8; 2]> {
+    let n = nodes.len();
+    let mut signs: Vec<[i8; 2]> = nodes
+        .iter()
+        .map(|node| {
+            let c = &candidates[node.candidate as usize];
+            if c.kind != Kind::Clothoid || node.sign[0] != node.sign[1] { [0, 0] } else { node.sign }
+        })
+        .collect();
+    for (i, &level) in joins.iter().enumerate() {
+        let (a, b) = (i, (i + 1) % n);
+        if level >= Continuity::G2 && nodes[a].sign[1] != nodes[b].sign[0] {
+            signs[a][1] = 0;
+            signs[b][0] = 0;
+        }
+    }
+    signs
+}

@@ -1,0 +1,152 @@
+//! A stroke ready to be fitted: closed if it is, divided at corners, resampled.
+
+use crate::clean::Cleaned;
+use crate::closure::close;
+use crate::corners::corners;
+use crate::options::FitOptions;
+use crate::polyline::Polyline;
+use crate::resample::{rate, resample};
+use crate::walk::Datum;
+use fairpath_curve::Vec2;
+
+/// The points and samples of a stroke along its arc length, px. Those of a ring are unrolled: they run through several turns.
+#[derive(Clone, Debug)]
+pub(crate) struct Track {
+    /// All points that enter fits, samples included.
+    pub(crate) data: Vec<Datum>,
+    /// Which datum each sample is.
+    pub(crate) samples: Vec<usize>,
+    /// Whether each sample is a corner.
+    pub(crate) corner: Vec<bool>,
+    /// Number of sample intervals in the stroke, or in one turn of a ring.
+    pub(crate) turn: usize,
+    pub(crate) shape: Shape,
+    /// Points that closing cut off.
+    pub(crate) trimmed: usize,
+}
+
+impl Track {
+    /// Where sample `i` is.
+    pub(crate) fn sample(&self, i: usize) -> Vec2 {
+        self.data[self.samples[i]].point
+    }
+
+    /// The data from sample `i` to sample `j`, both included.
+    pub(crate) fn run(&self, i: usize, j: usize) -> &[Datum] {
+        &self.data[self.samples[i]..=self.samples[j]]
+    }
+}
+
+/// Prepares a stroke (sections 3.1 and 3.2).
+pub(crate) fn prepare(cleaned: &Cleaned, options: &FitOptions) -> Track {
+    let Some(closed) = close(&cleaned.points, options) else {
+        let line = Polyline::new(cleaned.points.clone());
+        let bends = corners(&line, false, options);
+        return assemble(&line, Shape::Open, &bends, options, 0);
+    };
+    let mut points = closed.points;
+    points.push(points[0]);
+    let line = Polyline::new(points);
+    let bends = corners(&line, true, options);
+    let Some(&seam) = bends.first() else {
+        return assemble(&line, Shape::Ring, &[], options, closed.trimmed);
+    };
+    // A closed stroke with corners is an open one whose ends meet at one of them.
+    let bends: Vec<f64> = bends[1..].iter().map(|s| s - seam).collect();
+    assemble(&rotated(&line, seam), Shape::Loop, &bends, options, closed.trimmed)
+}
+
+/// How a stroke's ends relate.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Shape {
+    /// They do not.
+    Open,
+    /// They meet at a corner.
+    Loop,
+    /// They meet smoothly, anywhere.
+    Ring,
+}
+
+/// A closed polyline that starts at arc length `s`.
+fn rotated(line: &Polyline, s: f64) -> Polyline {
+    let start = line.at(s, &mut 0);
+    let n = line.points.len() - 1;
+    let after = line.s.partition_point(|&v| v <= s + 1e-6);
+    let before = line.s.partition_point(|&v| v < s - 1e-6);
+    let mut points = vec![start];
+    points.extend_from_slice(&line.points[after.min(n)..n]);
+    points.extend_from_slice(&line.points[..before.min(n)]);
+    points.push(start);
+    Polyline::new(points)
+}
+
+fn assemble(line: &Polyline, shape: Shape, bends: &[f64], options: &FitOptions, trimmed: usize) -> Track {
+    let rate = rate(line, options);
+    let length = line.length();
+    let mut stops = vec![0.0];
+    stops.extend(bends.iter().copied().filter(|&s| s > 1e-6 && s < length - 1e-6));
+    stops.push(length);
+    let mut sample_s: Vec<f64> = vec![0.0];
+    let mut corner = vec![false];
+    for pair in stops.windows(2) {
+        let part = resample(line, &rate, pair[0], pair[1], options);
+        sample_s.extend_from_slice(&part[1..]);
+        corner.resize(sample_s.len() - 1, false);
+        corner.push(true);
+    }
+    let turn = sample_s.len() - 1;
+    corner[turn] = false;
+
+    let share = options.sample_share;
+    let (vertex_weight, sample_weight) = (weights(&line.s, shape), weights(&sample_s, shape));
+    let mut data: Vec<Datum> = Vec::with_capacity(line.points.len() + sample_s.len());
+    let mut samples = Vec::with_capacity(sample_s.len());
+    let (mut hint, mut vertex) = (0, 0);
+    for (k, &s) in sample_s.iter().enumerate() {
+        while vertex < line.s.len() && line.s[vertex] < s - 1e-9 {
+            data.push(Datum {
+                point: line.points[vertex],
+                s: line.s[vertex],
+                weight: (1.0 - share) * vertex_weight[vertex],
+            });
+            vertex += 1;
+        }
+        let mut weight = share * sample_weight[k];
+        // A sample that falls on a vertex is both.
+        if vertex < line.s.len() && line.s[vertex] <= s + 1e-9 {
+            weight += (1.0 - share) * vertex_weight[vertex];
+            vertex += 1;
+        }
+        samples.push(data.len());
+        data.push(Datum { point: line.at(s, &mut hint), s, weight });
+    }
+    if shape == Shape::Ring {
+        // The last sample is the first of the second turn.
+        let one_turn = data.len() - 1;
+        for round in 1..TURNS {
+            for i in 1..=one_turn {
+                let datum = data[i];
+                data.push(Datum { s: datum.s + length * round as f64, ..datum });
+            }
+            for k in 1..=turn {
+                samples.push(samples[k] + one_turn * round);
+                corner.push(false);
+            }
+        }
+    }
+    Track { data, samples, corner, turn, shape, trimmed }
+}
+
+/// Turns through which a ring is unrolled: two neighbours may together cover more than two.
+const TURNS: usize = 3;
+
+/// Half the distance to both neighbours; across the seam of a ring, whose first and last entry are the same place.
+fn weights(s: &[f64], shape: Shape) -> Vec<f64> {
+    let last = s.len() - 1;
+    let mut w: Vec<f64> = (0..=last).map(|i| 0.5 * (s[(i + 1).min(last)] - s[i.saturating_sub(1)])).collect();
+    if shape == Shape::Ring {
+        w[0] += w[last];
+        w[last] = w[0];
+    }
+    w
+}
