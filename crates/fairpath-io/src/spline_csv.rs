@@ -13,8 +13,7 @@ use crate::unit::{Unit, YAxis};
 use fairpath_curve::{Continuity, Kind, Point, Segment, Spline};
 use std::fmt::Write;
 
-const COLUMNS: [&str; 10] =
-    ["name", "index", "kind", "x", "y", "heading", "length", "kappa0", "kappa1", "join"];
+const COLUMNS: [&str; 10] = ["name", "index", "kind", "x", "y", "heading", "length", "kappa0", "kappa1", "join"];
 
 /// The word for a kind of segment, as in all formats.
 pub(crate) const fn kind_word(kind: Kind) -> &'static str {
@@ -153,7 +152,13 @@ impl Open {
         let joins = joins.into_iter().flatten().collect();
         match Spline::new(segments, joins, closed) {
             Ok(spline) => {
-                file.splines.push(SplineEntry { name, method: String::new(), spline, report: None, warnings: Vec::new() });
+                file.splines.push(SplineEntry {
+                    name,
+                    method: String::new(),
+                    spline,
+                    report: None,
+                    warnings: Vec::new(),
+                });
                 Ok(())
             }
             Err(source) => Err(Fault::Spline { name, source }),

@@ -4,7 +4,7 @@
 //! hold the whole file as `fairpath-spline 1`, so that reading our SVG gives bit-identical splines. A check sum over the drawing tells
 //! whether somebody changed the paths afterwards: what is read then is still the metadata, with a warning.
 
-use crate::curves::{bounds, spline_path};
+use crate::drawable::{check_drawable, check_tolerance};
 use crate::error::{Error, Fault};
 use crate::limits::ReadOptions;
 use crate::spline_file::SplineFile;
@@ -22,8 +22,9 @@ const NAMESPACE: &str = "urn:fairpath:spline:1";
 const ELEMENT: &str = "document";
 
 pub(crate) fn write(file: &SplineFile, tolerance: f64) -> Result<Vec<u8>, Error> {
-    let segments = file.splines.iter().flat_map(|e| e.spline.segments());
-    let shown = segments.map(bounds).reduce(|a: Rect, b| a.union(b));
+    check_drawable(file, "SVG")?;
+    check_tolerance(tolerance, "SVG")?;
+    let shown = file.splines.iter().map(|e| e.spline.bounding_box()).reduce(|a: Rect, b| a.union(b));
     let mut out = String::new();
     let line_width = open_svg(&mut out, shown, file.unit, file.y);
     let mut drawing = String::new();
@@ -35,7 +36,7 @@ pub(crate) fn write(file: &SplineFile, tolerance: f64) -> Result<Vec<u8>, Error>
     let mut taken = HashSet::new();
     let mut sum = Checksum::default();
     for entry in &file.splines {
-        let path = spline_path(&entry.spline, tolerance).to_svg();
+        let path = entry.spline.to_bez_path(tolerance).to_svg();
         sum.add(&path);
         put(format_args!("<path id=\"{}\" d=\"{path}\"/>\n", xml::attribute(&unique(&entry.name, &mut taken))));
     }
