@@ -3,10 +3,8 @@
 use anyhow::Result;
 use fairpath_curve::Spline;
 use fairpath_fit::{Stages, Stroke, Warning};
-use fairpath_io::{
-    Comb, Encoded, Layout, PictureOptions, SplineFile, SplineFormat, StrokeFile, WriteOptions, YAxis, draw_splines,
-    draw_stages, encode_splines,
-};
+use fairpath_io::picture::{Comb, Layout, PictureOptions, draw_splines, draw_stages};
+use fairpath_io::{Encoded, SplineFile, SplineFormat, StrokeFile, WriteOptions, YAxis, encode_splines};
 
 use crate::args::OutputFormat;
 
