@@ -48,6 +48,10 @@ pub struct FitArgs {
     #[arg(long, value_name = "FORMAT", requires = "output")]
     pub format: Option<OutputFormat>,
 
+    /// Write DXF with the y axis turned up where the strokes have it down, so that the drawing looks as drawn
+    #[arg(long)]
+    pub flip_y: bool,
+
     /// How to fit
     #[arg(long, value_name = "METHOD", default_value = "shortest-path", value_parser = method)]
     pub method: Method,
@@ -118,6 +122,10 @@ pub struct ConvertArgs {
     /// Format of the output, where the extension does not say it
     #[arg(long, value_name = "FORMAT")]
     pub format: Option<OutputFormat>,
+
+    /// Write DXF with the y axis turned up where the strokes have it down, so that the drawing looks as drawn
+    #[arg(long)]
+    pub flip_y: bool,
 }
 
 /// The formats that curves are written in.

@@ -16,8 +16,11 @@ pub(crate) fn encode(
     file: &SplineFile,
     strokes: Option<&StrokeFile>,
     format: OutputFormat,
+    flip_y: bool,
 ) -> Result<(Vec<u8>, Vec<Warning>)> {
-    let Encoded { bytes, warnings } = encode_splines(file, spline_format(format), strokes, &WriteOptions::default())?;
+    let mut options = WriteOptions::default();
+    options.dxf.flip_y = flip_y;
+    let Encoded { bytes, warnings } = encode_splines(file, spline_format(format), strokes, &options)?;
     Ok((bytes, warnings))
 }
 

@@ -14,7 +14,7 @@ pub(crate) fn run(args: &ConvertArgs, printer: &mut Printer) -> Result<Ending> {
     interrupt::install();
     let file = read_splines(&args.input, &ReadOptions::default())?;
     let mut ready = Ready::default();
-    let (bytes, warnings) = pictures::encode(&file, None, to.format)?;
+    let (bytes, warnings) = pictures::encode(&file, None, to.format, args.flip_y)?;
     ready.add(&to.path, bytes);
     for warning in warnings {
         printer.note(&format!("{}: {}", to.path.display(), warning.text));

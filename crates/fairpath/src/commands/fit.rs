@@ -35,7 +35,7 @@ pub(crate) fn run(args: &FitArgs, printer: &mut Printer) -> Result<Ending> {
     let mut ready = Ready::default();
     let file = collect(&inputs, outcomes, args, &mut ready);
     if let Some(to) = &destination {
-        let (bytes, warnings) = pictures::encode(&file, Some(&inputs.file), to.format)?;
+        let (bytes, warnings) = pictures::encode(&file, Some(&inputs.file), to.format, args.flip_y)?;
         ready.add(&to.path, bytes);
         for warning in warnings {
             printer.note(&format!("{}: {}", to.path.display(), warning.text));

@@ -64,7 +64,7 @@ fn row(entry: &SplineEntry) -> Vec<String> {
 /// # Errors
 /// When a figure cannot be written.
 pub(crate) fn figures(file: &SplineFile) -> Result<String> {
-    let (bytes, _) = pictures::encode(file, None, OutputFormat::Json)?;
+    let (bytes, _) = pictures::encode(file, None, OutputFormat::Json, false)?;
     let whole: Value = serde_json::from_slice(&bytes).context("the figures cannot be read back")?;
     let strokes: Vec<Value> = whole["splines"]
         .as_array()
