@@ -3,6 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::time::Duration;
 
 use anyhow::{Context, Result, bail};
 use serde_json::Value;
@@ -28,20 +29,24 @@ const HEADER: &[&str] = &[
     "ms max",
 ];
 
-/// The evaluator's part of the test command alone.
-pub(crate) fn run() -> Result<()> {
+/// A file that takes longer than this to fit is taken for one that never ends. Every one of them should take seconds.
+const LIMIT: Duration = Duration::from_secs(240);
+
+/// The evaluator's part of the test command alone, for files whose names begin with one of `names`, or for all.
+pub(crate) fn run(names: &[String]) -> Result<()> {
     process::run(&mut process::cargo(&["build", "--release", "--package", "fairpath"]))?;
     let mut steps = Steps::default();
-    add_steps(&mut steps);
+    add_steps(&mut steps, names);
     steps.finish()
 }
 
 /// Adds a step for each file; where the shared data folder is absent, one that says so.
-pub(crate) fn add_steps(steps: &mut Steps) {
-    let files = files();
+pub(crate) fn add_steps(steps: &mut Steps, names: &[String]) {
+    let mut files = files();
+    files.retain(|file| names.is_empty() || names.iter().any(|name| file_name(file).starts_with(name)));
     if files.is_empty() || !tree::evaluator().exists() {
         steps.step("evaluator", || {
-            let missing = format!("no shared data folder beside the project ({})", tree::shared().display());
+            let missing = format!("no such files in the shared data folder ({})", tree::shared().display());
             if tree::on_build_server() { bail!("{missing}") } else { Ok(Outcome::Skipped(missing)) }
         });
         return;
@@ -99,7 +104,7 @@ fn judge(strokes: &Path) -> Result<Judged> {
     // One thread, so that the times in the table are the strokes' own.
     let mut fit = Command::new(tree::fairpath()?);
     fit.arg("fit").arg(strokes).arg("-o").arg(&spline).args(["--threads", "1"]);
-    let ran = process::capture(&mut fit)?;
+    let ran = process::capture_within(&mut fit, LIMIT)?;
     if !matches!(ran.code, Some(0 | 1)) {
         bail!("{} ended with {:?}:\n{}", process::shown(&fit), ran.code, ran.text);
     }

@@ -34,7 +34,10 @@ enum Chore {
     /// The one test command: style, lints, tests, documentation, layers and every outside judge.
     Test,
     /// Fit every file of the shared data folder, judge the results and hold them against the limits.
-    Evaluate,
+    Evaluate {
+        /// Only files whose names begin so.
+        names: Vec<String>,
+    },
     /// Time the fitter, stroke by stroke in one thread, with its growth and its peak memory.
     Bench {
         /// Each stroke's time is the best of so many.
@@ -74,7 +77,7 @@ enum Chore {
 fn main() -> ExitCode {
     let outcome = match Cli::parse().chore {
         Chore::Test => test::run(),
-        Chore::Evaluate => evaluate::run(),
+        Chore::Evaluate { names } => evaluate::run(&names),
         Chore::Bench { repeat } => bench::run(repeat),
         Chore::Table1 { repeat } => table1::run(repeat),
         Chore::Fuzz { seconds } => fuzz::run(seconds),

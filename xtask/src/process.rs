@@ -1,7 +1,10 @@
 //! Running other programs.
 
-use std::io::{BufRead, BufReader};
+use std::io::{BufRead, BufReader, Read};
 use std::process::{Command, Stdio};
+use std::sync::mpsc::{self, RecvTimeoutError};
+use std::thread;
+use std::time::{Duration, Instant};
 
 use anyhow::{Context, Result, bail};
 
@@ -36,6 +39,40 @@ pub(crate) fn capture(command: &mut Command) -> Result<Ran> {
     let output = command.stdin(Stdio::null()).output().with_context(|| format!("cannot start {}", shown(command)))?;
     let text = format!("{}{}", String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));
     Ok(Ran { code: output.status.code(), text })
+}
+
+/// As [`capture`], but a run that takes longer than `limit` is ended, and that is an error.
+pub(crate) fn capture_within(command: &mut Command, limit: Duration) -> Result<Ran> {
+    command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
+    let mut child = command.spawn().with_context(|| format!("cannot start {}", shown(command)))?;
+    let (sender, receiver) = mpsc::channel();
+    let pipes: [Option<Box<dyn Read + Send>>; 2] =
+        [child.stdout.take().map(|pipe| Box::new(pipe) as _), child.stderr.take().map(|pipe| Box::new(pipe) as _)];
+    for mut pipe in pipes.into_iter().flatten() {
+        let sender = sender.clone();
+        thread::spawn(move || {
+            let mut bytes = Vec::new();
+            // Both ends of a broken pipe are ours; what was read until then is all there is.
+            let _ = pipe.read_to_end(&mut bytes);
+            let _ = sender.send(bytes);
+        });
+    }
+    drop(sender);
+    let begun = Instant::now();
+    let mut text = String::new();
+    loop {
+        match receiver.recv_timeout(limit.saturating_sub(begun.elapsed())) {
+            Ok(bytes) => text.push_str(&String::from_utf8_lossy(&bytes)),
+            Err(RecvTimeoutError::Disconnected) => break,
+            Err(RecvTimeoutError::Timeout) => {
+                child.kill().context("cannot end it")?;
+                child.wait().context("cannot wait for its end")?;
+                bail!("{} did not end within {} s", shown(command), limit.as_secs());
+            }
+        }
+    }
+    let status = child.wait().context("cannot wait for it")?;
+    Ok(Ran { code: status.code(), text })
 }
 
 /// Runs with each line of standard output shown as it comes, and given to `line`.
@@ -73,4 +110,25 @@ pub(crate) fn shown(command: &Command) -> String {
         text.push_str(&arg.to_string_lossy());
     }
     text
+}
+
+#[cfg(all(test, unix))]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_a_run_says_is_kept() {
+        let mut command = Command::new("sh");
+        let ran =
+            capture_within(command.args(["-c", "echo out; echo err >&2; exit 3"]), Duration::from_secs(60)).unwrap();
+        assert_eq!(ran.code, Some(3));
+        assert!(ran.text.contains("out") && ran.text.contains("err"), "{}", ran.text);
+    }
+
+    #[test]
+    fn a_run_that_does_not_end_is_ended() {
+        let mut command = Command::new("sleep");
+        let error = capture_within(command.arg("600"), Duration::from_millis(20)).err().unwrap().to_string();
+        assert!(error.contains("did not end within"), "{error}");
+    }
 }

@@ -38,7 +38,7 @@ pub(crate) fn run() -> Result<()> {
     steps.step("judge: kernel", judges::kernel);
     steps.step("judge: DXF", judges::dxf);
     steps.step("judge: SVG", judges::svg);
-    evaluate::add_steps(&mut steps);
+    evaluate::add_steps(&mut steps, &[]);
     steps.finish()
 }
 

@@ -73,10 +73,10 @@ fn options(args: &FitArgs, pixel_size_of_file: Option<f64>) -> Result<FitOptions
     if let Some(closed) = args.closed {
         options.closed = closed;
     }
-    if let Some(size) = args.pixel_size {
-        if !(size.is_finite() && size > 0.0) {
-            bail!("--pixel-size {size}: expected a number above 0, the size of a screen's pixel in the strokes' unit");
-        }
+    if let Some(size) = args.pixel_size
+        && !(size.is_finite() && size > 0.0)
+    {
+        bail!("--pixel-size {size}: expected a number above 0, the size of a screen's pixel in the strokes' unit");
     }
     if let Some(size) = args.pixel_size.or(pixel_size_of_file) {
         options.pixel_size = size;
