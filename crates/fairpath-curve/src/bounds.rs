@@ -30,7 +30,7 @@ fn extend(bounds: &mut Rect, segment: &Segment, from: f64, to: f64) {
     let mut quarter = libm::ceil(low / FRAC_PI_2);
     for _ in 0..6 {
         let target = quarter * FRAC_PI_2;
-        if !(target <= high) {
+        if target > high || target.is_nan() {
             break;
         }
         if let Some(s) = arc_length_of_turn(kappa, rate, target - heading) {

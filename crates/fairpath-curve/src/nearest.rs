@@ -437,12 +437,12 @@ impl Spline {
         let mut best = place(first.0, segments[first.0].nearest(point));
         for (i, segment) in segments.iter().enumerate() {
             // Knots of a valid spline agree to 1e-9 of its size; the bound allows for that.
-            if i != first.0 && lower(i) * (1.0 - 1e-8) < best.distance {
-                if let Some(found) = nearer_than(segment, point, best.distance * best.distance) {
-                    if found.distance < best.distance {
-                        best = place(i, found);
-                    }
-                }
+            if i != first.0
+                && lower(i) * (1.0 - 1e-8) < best.distance
+                && let Some(found) = nearer_than(segment, point, best.distance * best.distance)
+                && found.distance < best.distance
+            {
+                best = place(i, found);
             }
         }
         best

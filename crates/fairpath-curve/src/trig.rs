@@ -6,11 +6,32 @@
 
 use kurbo::Vec2;
 
-/// Sine and cosine of any angle in radians, correctly rounded to within 1 ulp, the same bits on every platform.
+/// π/2 in three parts, the first two of 33 bits, so that their products with whole numbers below 2²⁰ are exact.
+const HALF_PI: [f64; 3] = [1.570_796_326_734_125_6, 6.077_100_506_303_966e-11, 2.022_266_248_795_950_6e-21];
+
+/// The largest angle reduced by [`HALF_PI`]; larger ones go to libm.
+const REDUCIBLE: f64 = 1e6;
+
+/// Sine and cosine of any angle in radians with an absolute error below 4e-16, the same bits on every platform.
 #[inline]
 #[must_use]
 pub fn sin_cos(angle: f64) -> (f64, f64) {
-    if angle.abs() <= SMALL_ANGLE { sin_cos_small(angle) } else { libm::sincos(angle) }
+    if angle.abs() <= SMALL_ANGLE {
+        return sin_cos_small(angle);
+    }
+    if angle.abs() > REDUCIBLE || angle.is_nan() {
+        return libm::sincos(angle);
+    }
+    // Adding and subtracting 1.5 × 2⁵² rounds to the nearest whole number.
+    let quarter = (angle * std::f64::consts::FRAC_2_PI + 6_755_399_441_055_744.0) - 6_755_399_441_055_744.0;
+    let rest = ((angle - quarter * HALF_PI[0]) - quarter * HALF_PI[1]) - quarter * HALF_PI[2];
+    let (sin, cos) = sin_cos_small(rest);
+    match (quarter as i64) & 3 {
+        0 => (sin, cos),
+        1 => (cos, -sin),
+        2 => (-sin, -cos),
+        _ => (-cos, sin),
+    }
 }
 
 /// The largest angle that [`sin_cos_small`] takes, in radians.

@@ -1,8 +1,6 @@
 //! Béziers, polylines and arcs stay within the tolerance asked for, and are few.
 
-mod common;
-
-use common::{segment, spline};
+use crate::common::{segment, spline};
 use fairpath_curve::{Continuity, FitSource, Kind, Point, Segment, Spline, Vec2};
 use kurbo::{CubicBez, ParamCurve};
 use proptest::prelude::*;

@@ -1,8 +1,6 @@
 //! The nearest point against sampling, and its behaviour on degenerate input.
 
-mod common;
-
-use common::{distance_by_sampling, segment, spline};
+use crate::common::{distance_by_sampling, segment, spline};
 use fairpath_curve::{Point, Segment, Vec2};
 use proptest::prelude::*;
 

@@ -1,8 +1,6 @@
 //! Boxes, transforms, combs, cutting and reversing.
 
-mod common;
-
-use common::{heading, segment, spline};
+use crate::common::{heading, segment, spline};
 use fairpath_curve::{Continuity, Kind, Point, Segment, Similarity, Spline, Vec2};
 use proptest::prelude::*;
 

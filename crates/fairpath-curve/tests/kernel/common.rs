@@ -1,5 +1,4 @@
 //! Generators and reference computations shared by the tests.
-#![expect(unreachable_pub, reason = "a module of test binaries has no outside")]
 
 use fairpath_curve::{Continuity, Point, Segment, Spline};
 use proptest::prelude::*;
@@ -14,7 +13,7 @@ fn magnitude(low: i32, high: i32) -> impl Strategy<Value = f64> {
 }
 
 /// Headings, with those near ±π, multiples of π/2 and whole turns over-represented.
-pub fn heading() -> impl Strategy<Value = f64> {
+pub(crate) fn heading() -> impl Strategy<Value = f64> {
     use std::f64::consts::{FRAC_PI_2, PI};
     prop_oneof![-PI..PI, (-4..=4_i32, magnitude(-16, -6)).prop_map(|(k, e)| f64::from(k) * FRAC_PI_2 + e), -30.0..30.0,]
 }
@@ -33,7 +32,7 @@ fn unit_segment(turn: f64) -> impl Strategy<Value = Segment> {
 }
 
 /// Segments with lengths from 1e-6 to 1e6 and curvatures times length of at most `turn`.
-pub fn segment(turn: f64) -> impl Strategy<Value = Segment> {
+pub(crate) fn segment(turn: f64) -> impl Strategy<Value = Segment> {
     (unit_segment(turn), -6.0..6.0, -1.0..1.0, -1.0..1.0).prop_map(|(s, e, x, y)| {
         let length = libm::exp10(e);
         Segment {
@@ -47,7 +46,7 @@ pub fn segment(turn: f64) -> impl Strategy<Value = Segment> {
 }
 
 /// Open G1 splines of up to six segments about the size of one.
-pub fn spline() -> impl Strategy<Value = Spline> {
+pub(crate) fn spline() -> impl Strategy<Value = Spline> {
     (prop::collection::vec(unit_segment(4.0), 1..6), any::<bool>()).prop_map(|(mut parts, corners)| {
         let mut pose = parts[0].start_pose();
         for part in &mut parts {
@@ -62,7 +61,7 @@ pub fn spline() -> impl Strategy<Value = Spline> {
 }
 
 /// The least distance found by sampling and golden-section refinement of the best samples.
-pub fn distance_by_sampling(segment: &Segment, point: Point, samples: usize) -> f64 {
+pub(crate) fn distance_by_sampling(segment: &Segment, point: Point, samples: usize) -> f64 {
     let distance = |s: f64| (segment.point_at(s) - point).hypot2().sqrt();
     let at = |i: usize| segment.length * i as f64 / samples as f64;
     let d: Vec<f64> = (0..=samples).map(|i| distance(at(i))).collect();

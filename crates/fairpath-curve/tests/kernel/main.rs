@@ -1,0 +1,7 @@
+//! What the clothoid kernel promises, module by module.
+
+mod common;
+mod conversion;
+mod evaluation;
+mod nearest;
+mod parts;
