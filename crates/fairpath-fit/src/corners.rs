@@ -22,65 +22,75 @@ const PLAINLY_SMOOTH: f64 = 0.45;
 /// Arc lengths of the corners, increasing; the ends of an open stroke are not among them.
 pub(crate) fn corners(line: &Polyline, closed: bool, options: &FitOptions) -> Vec<f64> {
     let length = line.length();
-    let count = libm_round((length / SPACING).min(MOST_POINTS)).max(1.0) as usize;
+    let count = round((length / SPACING).min(MOST_POINTS)).max(1.0) as usize;
     let spacing = length / count as f64;
     let mut hint = 0;
     let points: Vec<Vec2> = (0..=count).map(|i| line.at(spacing * i as f64, &mut hint)).collect();
     let n = if closed { count } else { count + 1 };
-    let mut found: Vec<(f64, usize)> = Vec::new();
+    let mut found: Vec<Sighting> = Vec::new();
     let mut run: Vec<Datum> = Vec::new();
     for i in 0..n {
-        let mut score = 0.0_f64;
         for window in options.corner_windows() {
-            let k = libm_round(window / spacing) as usize;
-            let fits = if closed { 2 * k < n } else { i >= k.min(MIN_SIDE) && i + k.min(MIN_SIDE) < n };
-            if k < MIN_SIDE || !fits {
-                continue;
-            }
+            let k = round(window / spacing) as usize;
             let (left, right) = if closed { (k, k) } else { (k.min(i), k.min(n - 1 - i)) };
-            // A side cut short by the stroke's end tells about as much as the smaller window already did.
-            if left.min(right) < k.div_ceil(2) {
+            // A side cut short by the stroke's end tells about as much as a smaller window does.
+            if k < MIN_SIDE || 2 * left.min(right) < k.max(2 * MIN_SIDE) || (closed && 2 * k >= n) {
                 continue;
             }
             let at = |j: isize| points[(i as isize + j).rem_euclid(n as isize) as usize];
-            score = score.max(score_at(&at, left as isize, right as isize, options, &mut run));
-        }
-        if score >= options.corner_score {
-            found.push((score, i));
+            if let Some(strength) = strength(&at, left as isize, right as isize, options, &mut run) {
+                found.push(Sighting { strength, place: i, reach: k });
+            }
         }
     }
-    // The best of each neighbourhood stays.
-    found.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
-    let reach = options.corner_distance / spacing;
+    // The strongest stays. What was seen through a window that holds a stronger corner was that corner, seen from aside.
+    found.sort_by(|a, b| b.strength.total_cmp(&a.strength).then(a.place.cmp(&b.place)));
+    let least = (options.corner_distance / spacing) as usize;
     let mut kept: Vec<usize> = Vec::new();
-    for (_, i) in found {
+    for sighting in found {
         let near = |&j: &usize| {
-            let d = i.abs_diff(j) as f64;
-            (if closed { d.min(n as f64 - d) } else { d }) < reach
+            let d = sighting.place.abs_diff(j);
+            (if closed { d.min(n - d) } else { d }) < sighting.reach.max(least)
         };
         if !kept.iter().any(near) {
-            kept.push(i);
+            kept.push(sighting.place);
         }
     }
     kept.sort_unstable();
     kept.into_iter().map(|i| spacing * i as f64).collect()
 }
 
+/// A corner as it appears in one neighbourhood.
+struct Sighting {
+    strength: f64,
+    place: usize,
+    /// Points on each side that were looked at.
+    reach: usize,
+}
+
 /// The fewest steps on either side from which an arc can be judged.
 const MIN_SIDE: usize = 4;
 
-fn libm_round(v: f64) -> f64 {
+fn round(v: f64) -> f64 {
     (v + 0.5).floor()
 }
 
-/// How much better two arcs describe the neighbourhood than one: the drop of the mean square distance, relative to what two
-/// arcs leave plus a floor; zero where the arcs do not meet at an angle.
-fn score_at(at: &impl Fn(isize) -> Vec2, left: isize, right: isize, options: &FitOptions, run: &mut Vec<Datum>) -> f64 {
+/// How strong a corner is: the angle at which the two arcs meet over the distance that they leave; nothing where it is none.
+///
+/// It is one if the two arcs meet at a sufficient angle, if that angle makes up most of the neighbourhood's turning (a tight
+/// bend turns all along), and if they leave much less distance than a single arc.
+fn strength(
+    at: &impl Fn(isize) -> Vec2,
+    left: isize,
+    right: isize,
+    options: &FitOptions,
+    run: &mut Vec<Datum>,
+) -> Option<f64> {
     let (a, p, b) = (at(-left), at(0), at(right));
     let (into, out) = (p - a, b - p);
     let turn = trig::angle_of(Vec2::new(into.dot(out), into.cross(out))).abs();
     if turn < PLAINLY_SMOOTH {
-        return 0.0;
+        return None;
     }
     let mut side = |range: &mut dyn Iterator<Item = isize>| {
         run.clear();
@@ -91,14 +101,14 @@ fn score_at(at: &impl Fn(isize) -> Vec2, left: isize, right: isize, options: &Fi
     };
     let back = side(&mut (1..=left).map(|j| -j));
     let forth = side(&mut (1..=right));
-    let sides = (back.normal.energy + forth.normal.energy) / (back.normal.weight + forth.normal.weight);
     // Both arcs were walked away from the corner; the arriving direction is opposite to that of the walk.
-    let jump = trig::wrap_angle(forth.primitive.heading - back.primitive.heading - std::f64::consts::PI);
-    if jump.abs() < options.corner_angle.to_radians() {
-        return 0.0;
+    let jump = trig::wrap_angle(forth.primitive.heading - back.primitive.heading - std::f64::consts::PI).abs();
+    if jump < options.corner_angle.to_radians() || jump < options.corner_share * turn {
+        return None;
     }
+    let sides = (back.normal.energy + forth.normal.energy) / (back.normal.weight + forth.normal.weight);
     let whole = side(&mut (-left..=right));
     let one = whole.normal.energy / whole.normal.weight;
-    let floor = options.corner_noise * options.corner_noise;
-    (one - sides) / (sides + floor)
+    let remaining = sides + options.corner_noise * options.corner_noise;
+    (one - sides >= options.corner_score * remaining).then(|| jump / remaining)
 }

@@ -83,6 +83,9 @@ pub struct FitOptions {
     /// How much better two arcs must describe a corner than one: the drop in mean square distance over what remains.
     #[schemars(extend("unit" = "1"))]
     pub corner_score: f64,
+    /// Least share of a corner's angle in the turning of its neighbourhood.
+    #[schemars(extend("unit" = "1"))]
+    pub corner_share: f64,
     /// Tremor taken for granted when that is judged.
     #[schemars(extend("unit" = "px"))]
     pub corner_noise: f64,
@@ -186,6 +189,7 @@ impl FitOptions {
             closing_gap: 15.0,
             corner_angle: 38.0,
             corner_score: 2.0,
+            corner_share: 0.65,
             corner_noise: 0.5,
             corner_window: 26.0,
             corner_distance: 12.0,

@@ -30,6 +30,15 @@ const MAX_CURVATURE: f64 = 1.0;
 /// How a heading and a curvature gap compare to one in position, px and px².
 const GAP_SCALE: [f64; 4] = [1.0, 1.0, 20.0, 200.0];
 
+/// Weight of the square of an open gap, px.
+const GAP_STIFFNESS: f64 = 30.0;
+
+/// Gaps that one full step closes anyway, px: while they are smaller they do not hold up the descent.
+const SMALL_GAP: f64 = 0.05;
+
+/// By how much, relatively, a step may raise the energy, since closing a small gap may cost a little.
+const SLACK: f64 = 1e-4;
+
 /// When to stop.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Effort {
@@ -44,7 +53,13 @@ struct Law {
     /// Change of each control, and its response to changes of state and parameters.
     feed: [f64; Q],
     gain: [[f64; Z]; Q],
+    /// Slope of the cost by each control after that, and its response: tells when a held control may be let go.
+    slope: [f64; Q],
+    slope_gain: [[f64; Z]; Q],
 }
+
+/// Which controls of a piece are held at their bounds.
+type Held = [bool; Q];
 
 /// Where each parameter of a piece comes from.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -62,85 +77,111 @@ struct Value {
     g: [f64; Z],
 }
 
-/// Fits the chain; false if it did not come to a finite end with closed joins.
+/// Fits the chain; nothing if it did not come to a finite end with exact joins.
 pub(crate) fn merge(chain: &mut Chain, effort: Effort) -> Option<Measured> {
     unwrap_headings(chain);
     let closure = Closure::of(chain);
-    let mut damping = 1e-6;
-    let mut penalty = 0.0_f64;
+    let mut held: Vec<Held> = vec![[false; Q]; chain.pieces.len()];
     let mut now = chain.measure();
-    // The first chain has gaps: whatever joins it is an improvement.
-    let mut merit = f64::INFINITY;
-    let mut settled = 0;
+    let mut misfit = gaps(chain) + closure.misfit(&chain.pieces);
+    // Damping relative to the energy.
+    let mut relative = 1.0_f64;
+    let mut replans = 0;
     for _ in 0..effort.rounds {
-        let laws = backward(chain, &now, damping, &closure);
-        let Some((laws, first, multipliers)) = laws else {
-            damping = (damping * 30.0).max(1e-3);
-            if damping > 1e6 {
+        let Some(plan) = backward(chain, &now, relative * (now.energy + 1.0), &closure, &held) else {
+            relative *= 100.0;
+            if relative > 1e9 {
                 return None;
             }
             continue;
         };
-        for i in 0..closure.count {
-            penalty = penalty.max(2.0 * multipliers[i].abs() / GAP_SCALE[i]);
-        }
-        if merit.is_finite() && closure.count > 0 {
-            merit = 0.5 * now.energy + penalty * closure.misfit(&chain.pieces);
-        }
+        // An exact penalty must outweigh what a gap can gain.
+        let price = 2.0 * plan.pull;
+        let merit = 0.5 * now.energy + price * (misfit - SMALL_GAP).max(0.0);
+        if std::env::var("FPDBG").is_ok() && chain.closed { eprintln!("round E={} merit={merit} price={price} misfit={misfit} rel={relative} gap={:?} first={:?} mult={:?}", now.energy, closure.gap(&chain.pieces), plan.first, plan.multipliers); }
         let old = chain.pieces.clone();
-        let mut accepted = false;
         let mut step = 1.0;
-        for _ in 0..6 {
-            forward(chain, &old, &laws, &first, &multipliers, step);
+        let mut gain = None;
+        let mut wanted = None;
+        for _ in 0..4 {
+            let next_held = forward(chain, &old, &plan, step, &held);
             let next = chain.measure();
-            let next_merit = 0.5 * next.energy + penalty * closure.misfit(&chain.pieces);
-            if next_merit <= merit || (merit.is_infinite() && next_merit.is_finite()) {
-                settled = if merit - next_merit <= effort.tolerance * next_merit + 1e-9 { settled + 1 } else { 0 };
-                (now, merit) = (next, next_merit);
-                accepted = true;
+            let next_misfit = gaps(chain) + closure.misfit(&chain.pieces);
+            let next_merit = 0.5 * next.energy + price * (next_misfit - SMALL_GAP).max(0.0);
+            if next_merit <= merit * (1.0 + SLACK) {
+                gain = Some((merit - next_merit).abs() / (next_merit + 1e-6));
+                (now, misfit, held) = (next, next_misfit, next_held);
                 break;
             }
-            step *= 0.4;
-        }
-        if accepted {
-            damping = if step == 1.0 { (damping * 0.2).max(1e-9) } else { damping * 2.0 };
-        } else {
-            chain.pieces = old;
-            damping = (damping * 30.0).max(1e-3);
-            settled += 1;
-            if merit.is_infinite() && damping > 1e6 {
-                return None;
+            // A full step that ran into bounds is planned anew with those controls held.
+            if step == 1.0 && next_held != held && replans < 3 {
+                wanted = Some(next_held);
+                break;
             }
+            step *= 0.3;
         }
-        if settled >= 1 && merit.is_finite() && closure.misfit(&chain.pieces) < 1e-6 {
-            break;
+        if let Some(next_held) = wanted {
+            chain.pieces = old;
+            held = next_held;
+            replans += 1;
+            continue;
         }
-        if settled > 6 {
+        replans = 0;
+        let Some(gain) = gain else {
+            chain.pieces = old;
+            relative = (relative * 100.0).max(1e-3);
+            if relative > 1e7 {
+                break;
+            }
+            continue;
+        };
+        relative = if step == 1.0 { (relative * 0.1).max(1e-9) } else { relative * 3.0 };
+        if gain < effort.tolerance && misfit < 1e-3 {
             break;
         }
     }
-    if merit.is_infinite() {
-        return None;
-    }
-    close_exactly(chain, &closure)?;
-    if closure.count > 0 {
+    if join_exactly(chain, &closure, &mut held)? {
         now = chain.measure();
     }
     now.energy.is_finite().then_some(now)
 }
 
-/// Full steps until the closure holds to rounding.
-fn close_exactly(chain: &mut Chain, closure: &Closure) -> Option<()> {
-    for _ in 0..8 {
-        if closure.misfit(&chain.pieces) < 1e-10 {
-            return Some(());
+/// Relative damping while only the joins are to be closed: so strong that nothing else moves.
+const JOINING: f64 = 1e3;
+
+/// Full steps until all joins hold to rounding; whether any was needed.
+fn join_exactly(chain: &mut Chain, closure: &Closure, held: &mut [Held]) -> Option<bool> {
+    for round in 0..10 {
+        if gaps(chain) == 0.0 && closure.misfit(&chain.pieces) < 1e-10 {
+            return Some(round > 0);
         }
         let now = chain.measure();
-        let (laws, first, multipliers) = backward(chain, &now, 1e-6, closure)?;
+        if std::env::var("FPDBG").is_ok() && chain.closed { eprintln!("close E={} gaps={} misfit={} gap={:?} held={:?}", now.energy, gaps(chain), closure.misfit(&chain.pieces), closure.gap(&chain.pieces), held.iter().map(|h| h.iter().map(|&x| if x {'x'} else {'.'}).collect::<String>()).collect::<Vec<_>>()); }
+        let plan = backward(chain, &now, JOINING * (now.energy + 1.0), closure, held)?;
         let old = chain.pieces.clone();
-        forward(chain, &old, &laws, &first, &multipliers, 1.0);
+        let next = forward(chain, &old, &plan, 1.0, held);
+        // What is held stays held: here only the joins matter.
+        for (h, n) in held.iter_mut().zip(next) {
+            for (h, n) in h.iter_mut().zip(n) {
+                *h |= n;
+            }
+        }
     }
-    (closure.misfit(&chain.pieces) < 1e-9).then_some(())
+    (gaps(chain) == 0.0 && closure.misfit(&chain.pieces) < 1e-9).then_some(true)
+}
+
+/// What is open at the joins between neighbours: the weighted sum of magnitudes.
+fn gaps(chain: &Chain) -> f64 {
+    (1..chain.pieces.len())
+        .map(|k| gap_before(chain, &chain.pieces, k).iter().zip(GAP_SCALE).map(|(g, w)| g.abs() * w).sum::<f64>())
+        .sum()
+}
+
+/// What is open between piece `k` and the one before, in the parameters that it takes over.
+fn gap_before(chain: &Chain, pieces: &[Piece], k: usize) -> [f64; 4] {
+    let taken = roles(chain, k);
+    let arrived = end(&pieces[k - 1].q);
+    std::array::from_fn(|i| if taken[i] == Role::State { arrived[i] - pieces[k].q[i] } else { 0.0 })
 }
 
 /// Makes the headings of pieces that join smoothly run on without jumps of whole turns.
@@ -257,13 +298,22 @@ fn control_bounds(chain: &Chain, k: usize, index: usize) -> (f64, f64) {
     bounds(&chain.pieces[k], Some(&chain.pieces[(k + 1) % n]), joined, index)
 }
 
-type Step = (Vec<Law>, [f64; 4], [f64; 4]);
+/// What a backward pass decides.
+struct Plan {
+    laws: Vec<Law>,
+    /// Change of the first state.
+    first: [f64; 4],
+    /// Multipliers of closure.
+    multipliers: [f64; 4],
+    /// The largest slope of the cost by a gap, in units of [`GAP_SCALE`].
+    pull: f64,
+}
 
-/// The feedback laws, the change of the first state, and the multipliers of closure.
-fn backward(chain: &Chain, now: &Measured, damping: f64, closure: &Closure) -> Option<Step> {
+/// One Riccati recursion from the last piece to the first.
+fn backward(chain: &Chain, now: &Measured, damping: f64, closure: &Closure, held: &[Held]) -> Option<Plan> {
     let n = chain.pieces.len();
     let extra = if closure.count > 0 { EXTRA } else { 0 };
-    let mut laws = vec![Law { feed: [0.0; Q], gain: [[0.0; Z]; Q] }; n];
+    let mut laws = vec![Law { feed: [0.0; Q], gain: [[0.0; Z]; Q], slope: [0.0; Q], slope_gain: [[0.0; Z]; Q] }; n];
     let mut value = Value { h: [[0.0; Z]; Z], g: [0.0; Z] };
     if closure.count > 0 {
         // The Lagrangian of closure: multiplier times (last state − first state − turns).
@@ -275,8 +325,18 @@ fn backward(chain: &Chain, now: &Measured, damping: f64, closure: &Closure) -> O
             value.h[4 + i][l] = -1.0;
             value.h[l][4 + i] = -1.0;
             value.g[l] = gap[i];
+            // A square of the gap is added. It vanishes with the gap and so changes no solution, but without it nothing would
+            // resist the controls near the end, and the recursion would be ill-conditioned.
+            let w = GAP_STIFFNESS * GAP_SCALE[i] * GAP_SCALE[i];
+            value.h[i][i] += w;
+            value.h[4 + i][4 + i] += w;
+            value.h[i][4 + i] -= w;
+            value.h[4 + i][i] -= w;
+            value.g[i] += w * gap[i];
+            value.g[4 + i] -= w * gap[i];
         }
     }
+    let mut pull = 0.0_f64;
     for k in (0..n).rev() {
         let q = &chain.pieces[k].q;
         let (arrived, f) = end_with_jacobian(q);
@@ -290,14 +350,24 @@ fn backward(chain: &Chain, now: &Measured, damping: f64, closure: &Closure) -> O
                     gap[i] = arrived[i] - next.q[i];
                 }
             }
+            let shift: [f64; Z] = std::array::from_fn(|i| (0..4).map(|j| value.h[i][j] * gap[j]).sum());
             for i in 0..4 + extra {
-                value.g[i] += (0..4).map(|j| value.h[i][j] * gap[j]).sum::<f64>();
+                value.g[i] += shift[i];
+            }
+            for i in 0..4 {
+                if taken[i] == Role::State {
+                    pull = pull.max(value.g[i].abs() / GAP_SCALE[i]);
+                }
             }
         }
         let (h, g) = stage(&now.normals[k], &f, &value, extra);
-        value = eliminate(chain, k, h, g, damping, extra, &mut laws[k])?;
+        value = eliminate(chain, k, h, g, damping, extra, &held[k], &mut laws[k])?;
     }
-    first_state(chain, &mut value, damping, closure).map(|(z, l)| (laws, z, l))
+    let (first, multipliers) = first_state(chain, &mut value, damping, closure)?;
+    for i in 0..closure.count {
+        pull = pull.max(multipliers[i].abs() / GAP_SCALE[i]);
+    }
+    Some(Plan { laws, first, multipliers, pull })
 }
 
 /// The quadratic model of a stage over its parameters and the carried ones.
@@ -345,6 +415,7 @@ fn eliminate(
     mut g: [f64; M],
     damping: f64,
     extra: usize,
+    held: &Held,
     law: &mut Law,
 ) -> Option<Value> {
     let m = Q + extra;
@@ -360,46 +431,29 @@ fn eliminate(
         }
         g[KAPPA0] += g[KAPPA1];
     }
-    let mut free: Vec<usize> = (0..Q).filter(|&i| roles[i] == Role::Control).collect();
-    let mut fixed: Vec<(usize, f64)> = Vec::new();
-    let (mut factor, mut feed);
-    loop {
-        factor = [[0.0; Q]; Q];
-        for (a, &i) in free.iter().enumerate() {
-            for (b, &j) in free.iter().enumerate().take(a + 1) {
-                factor[a][b] = h[i][j];
-            }
-            // Damped, and with a floor for pieces that no datum holds.
-            factor[a][a] += damping * h[i][i].abs() + FLOOR[i];
+    let free: Vec<usize> = (0..Q).filter(|&i| roles[i] == Role::Control && !held[i]).collect();
+    // Damping is part of the model, not only of the step: closure then holds in every damped step as well.
+    for &i in &free {
+        let reach = reach(piece, i);
+        h[i][i] += damping / (reach * reach) + FLOOR[i];
+    }
+    let mut factor = [[0.0; Q]; Q];
+    for (a, &i) in free.iter().enumerate() {
+        for (b, &j) in free.iter().enumerate().take(a + 1) {
+            factor[a][b] = h[i][j];
         }
-        if !cholesky(&mut factor, free.len(), 1e-13) {
-            return None;
-        }
-        feed = [0.0; Q];
-        let mut b = [0.0; Q];
-        for (a, &i) in free.iter().enumerate() {
-            b[a] = -g[i] - fixed.iter().map(|&(j, v)| h[i][j] * v).sum::<f64>();
-        }
-        solve(&factor, free.len(), &mut b);
-        for (a, &i) in free.iter().enumerate() {
-            feed[i] = b[a];
-        }
-        for &(j, v) in &fixed {
-            feed[j] = v;
-        }
-        // The control that leaves its bounds furthest is set to the bound, and the others are solved for again.
-        let worst = free
-            .iter()
-            .map(|&i| {
-                let (low, high) = control_bounds(chain, k, i);
-                let v = piece.q[i] + feed[i];
-                (i, (low - v).max(v - high), if v < low { low } else { high })
-            })
-            .filter(|w| w.1 > 1e-12)
-            .max_by(|a, b| (a.1 * SCALE[a.0]).total_cmp(&(b.1 * SCALE[b.0])));
-        let Some((i, _, bound)) = worst else { break };
-        free.retain(|&j| j != i);
-        fixed.push((i, bound - piece.q[i]));
+    }
+    if !cholesky(&mut factor, free.len(), 1e-13) {
+        return None;
+    }
+    let mut feed = [0.0; Q];
+    let mut b = [0.0; Q];
+    for (a, &i) in free.iter().enumerate() {
+        b[a] = -g[i];
+    }
+    solve(&factor, free.len(), &mut b);
+    for (a, &i) in free.iter().enumerate() {
+        feed[i] = b[a];
     }
     // Response of the free controls to state and parameters.
     let inputs = |c: usize| if c < 4 { c } else { Q + c - 4 };
@@ -447,14 +501,26 @@ fn eliminate(
             value.h[d][c] = v;
         }
     }
-    *law = Law { feed, gain };
+    *law = Law { feed, gain, slope: hf, slope_gain: hg };
     Some(value)
+}
+
+/// Energy that letting go of a held control must promise, px³.
+const WORTH_LETTING_GO: f64 = 1e-2;
+
+/// How far a parameter may change in one round without leaving what its derivatives can foresee.
+fn reach(piece: &Piece, index: usize) -> f64 {
+    let length = piece.q[LENGTH];
+    match index {
+        LENGTH => 0.2 * length + 1.0,
+        KAPPA0 | KAPPA1 => 0.3 / length + 0.1 * piece.q[index].abs(),
+        HEADING => 0.3,
+        _ => 3.0,
+    }
 }
 
 /// Stiffness that every control has by itself, against pieces that no datum holds.
 const FLOOR: [f64; Q] = [1e-6, 1e-6, 1e-3, 1e-1, 1e-1, 1e-6];
-/// What a violation of a control's bounds is worth, px.
-const SCALE: [f64; Q] = [1.0, 1.0, 20.0, 200.0, 200.0, 1.0];
 
 /// The best change of the first state, and the multipliers.
 fn first_state(chain: &Chain, value: &mut Value, damping: f64, closure: &Closure) -> Option<([f64; 4], [f64; 4])> {
@@ -473,6 +539,10 @@ fn first_state(chain: &Chain, value: &mut Value, damping: f64, closure: &Closure
             value.g[i] += value.g[4 + i];
         }
     }
+    for i in 0..4 {
+        let reach = reach(&chain.pieces[0], i);
+        value.h[i][i] += damping / (reach * reach) + FLOOR[i];
+    }
     let roles = roles(chain, 0);
     let mut free: Vec<usize> = (0..4).filter(|&i| roles[i] == Role::State).collect();
     let mut held = [0.0; 4];
@@ -482,7 +552,6 @@ fn first_state(chain: &Chain, value: &mut Value, damping: f64, closure: &Closure
             for (b, &j) in free.iter().enumerate().take(a + 1) {
                 factor[a][b] = value.h[i][j];
             }
-            factor[a][a] += damping * value.h[i][i].abs() + FLOOR[i];
         }
         if !cholesky(&mut factor, free.len(), 1e-13) {
             return None;
@@ -547,8 +616,11 @@ fn first_bounds(chain: &Chain) -> (f64, f64) {
     bounds(&chain.pieces[0], None, false, KAPPA0)
 }
 
-/// The chain that the feedback laws lead along, from the pieces `old`.
-fn forward(chain: &mut Chain, old: &[Piece], laws: &[Law], first: &[f64; 4], multipliers: &[f64; 4], step: f64) {
+/// The chain that the plan leads to from the pieces `old`, and which controls it found at their bounds. A full step closes all
+/// gaps; a shorter one leaves its share of them open.
+fn forward(chain: &mut Chain, old: &[Piece], plan: &Plan, step: f64, held: &[Held]) -> Vec<Held> {
+    let Plan { laws, first, multipliers, .. } = plan;
+    let mut at_bound: Vec<Held> = vec![[false; Q]; old.len()];
     let mut state = [0.0; 4];
     for i in 0..4 {
         state[i] = old[0].q[i] + step * first[i];
@@ -572,7 +644,16 @@ fn forward(chain: &mut Chain, old: &[Piece], laws: &[Law], first: &[f64; 4], mul
             if roles[i] == Role::Control {
                 let change = step * law.feed[i] + (0..Z).map(|c| law.gain[i][c] * input[c]).sum::<f64>();
                 let (low, high) = control_bounds(chain, k, i);
-                q[i] = (old[k].q[i] + change).clamp(low, high);
+                let wanted = old[k].q[i] + change;
+                q[i] = wanted.clamp(low, high);
+                at_bound[k][i] = if held[k][i] {
+                    // Let go where the cost falls towards the inside.
+                    let slope = law.slope[i] + (0..Z).map(|c| law.slope_gain[i][c] * input[c]).sum::<f64>();
+                    let gain = slope * reach(&old[k], i);
+                    if q[i] <= low { gain > -WORTH_LETTING_GO } else { gain < WORTH_LETTING_GO }
+                } else {
+                    wanted < low || wanted > high
+                };
             }
         }
         match chain.pieces[k].kind {
@@ -589,5 +670,12 @@ fn forward(chain: &mut Chain, old: &[Piece], laws: &[Law], first: &[f64; 4], mul
         }
         chain.pieces[k].q = q;
         state = end(&q);
+        if step < 1.0 && k + 1 < old.len() {
+            let gap = gap_before(chain, old, k + 1);
+            for i in 0..4 {
+                state[i] -= (1.0 - step) * gap[i];
+            }
+        }
     }
+    at_bound
 }
