@@ -2,28 +2,45 @@
 
 use crate::error::Error;
 use crate::spline_file::SplineFile;
+use fairpath_curve::{Point, Spline};
+use fairpath_fit::Stroke;
 
 /// Most turning of one spline that is drawn, radians: some 16,000 full turns.
 const MAX_TURNING: f64 = 1e5;
 /// Largest coordinate that is drawn: beyond it, squares overflow.
 const MAX_COORDINATE: f64 = 1e60;
 
-/// Every spline of the file can be approximated by finitely many Béziers or arcs.
+/// Why a spline cannot be drawn, if so.
+fn obstacle(spline: &Spline) -> Option<String> {
+    let segments = spline.segments();
+    let turning: f64 = segments.iter().map(|s| s.absolute_turning()).sum();
+    if turning.is_nan() || turning > MAX_TURNING {
+        return Some(format!("it turns by {turning:e} rad, more than the {MAX_TURNING:e} rad that can be drawn"));
+    }
+    let near = |v: f64| v.abs() < MAX_COORDINATE;
+    if segments.iter().all(|s| near(s.start.x) && near(s.start.y) && near(s.length)) {
+        return None;
+    }
+    Some(format!("it reaches beyond ±{MAX_COORDINATE:e}"))
+}
+
+/// Whether the spline can be approximated by finitely many Béziers or arcs.
+pub(crate) fn is_drawable(spline: &Spline) -> bool {
+    obstacle(spline).is_none()
+}
+
+/// The points of a stroke that a page can show.
+pub(crate) fn drawable_points(stroke: &Stroke) -> impl Iterator<Item = Point> + '_ {
+    stroke.points.iter().copied().filter(|p| p.x.abs() < MAX_COORDINATE && p.y.abs() < MAX_COORDINATE)
+}
+
+/// Every spline of the file can be drawn.
 pub(crate) fn check_drawable(file: &SplineFile, format: &'static str) -> Result<(), Error> {
     for entry in &file.splines {
-        let segments = entry.spline.segments();
-        let turning: f64 = segments.iter().map(|s| s.absolute_turning()).sum();
-        let far = segments.iter().any(|s| s.start.x.abs().max(s.start.y.abs()).max(s.length) > MAX_COORDINATE);
-        let problem = if !(turning <= MAX_TURNING) {
-            format!(
-                "it turns by {turning:e} rad, more than the {MAX_TURNING:e} rad that can be drawn; write JSON or CSV"
-            )
-        } else if far {
-            format!("it reaches beyond ±{MAX_COORDINATE:e}; write JSON or CSV")
-        } else {
-            continue;
-        };
-        return Err(Error::Unwritable { format, place: format!("spline {:?}", entry.name), problem });
+        if let Some(obstacle) = obstacle(&entry.spline) {
+            let problem = format!("{obstacle}; write JSON or CSV");
+            return Err(Error::Unwritable { format, place: format!("spline {:?}", entry.name), problem });
+        }
     }
     Ok(())
 }

@@ -6,6 +6,7 @@ mod error;
 mod input;
 mod limits;
 pub mod picture;
+mod schema;
 mod spline_csv;
 mod spline_dxf;
 mod spline_file;
@@ -25,6 +26,7 @@ mod xml;
 pub use atomic::write_whole;
 pub use error::Error;
 pub use limits::{Limits, ReadOptions};
+pub use schema::{spline_schema, strokes_schema};
 pub use spline_dxf::{DxfEntities, DxfOptions};
 pub use spline_file::{Failure, Milliseconds, SplineEntry, SplineFile, SplineReport};
 pub use splines::{

@@ -46,7 +46,7 @@ impl PathWalker {
 
     /// A drawing command after `z` begins at the closed subpath's start.
     fn begin(&mut self) {
-        if self.current.is_empty() {
+        if self.current.elements().is_empty() {
             self.current.move_to(self.at);
         }
     }

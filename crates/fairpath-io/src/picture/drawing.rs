@@ -2,6 +2,7 @@
 
 use super::page::{Page, Picture, View, colour, colour_of};
 use super::{Comb, Layout, PictureOptions, sheet};
+use crate::drawable::{drawable_points, is_drawable};
 use crate::spline_file::SplineFile;
 use crate::stroke_file::StrokeFile;
 use crate::unit::YAxis;
@@ -15,10 +16,8 @@ const MARGIN: f64 = 0.05;
 const COMB_HEIGHT: f64 = 0.125;
 /// The part of all teeth that may stand higher than that.
 const COMB_OUTLIERS: f64 = 0.02;
-/// A drawing is not shown beyond these coordinates: squares would overflow.
-const MAX_COORDINATE: f64 = 1e60;
-/// A spline that turns by more than this, radians, is not drawn.
-const MAX_TURNING: f64 = 1e5;
+/// Teeth of the comb along a line across the page.
+const TEETH: f64 = 220.0;
 
 /// A picture of splines, with `strokes`, if given, behind them.
 ///
@@ -32,7 +31,7 @@ pub fn draw_splines(file: &SplineFile, strokes: Option<&StrokeFile>, options: &P
     let shown: Vec<&Spline> = file.splines.iter().map(|e| &e.spline).filter(|s| is_drawable(s)).collect();
     let ghosts: &[Stroke] = strokes.filter(|_| options.ghost).map_or(&[], |s| &s.strokes);
     let bounds = bounds(shown.iter().copied(), ghosts.iter());
-    let comb = CombScale::of(options.comb, shown.iter().copied(), bounds);
+    let comb = CombScale::of(options.comb, shown.iter().copied(), bounds, TEETH);
     let bounds = comb.widened(bounds, shown.iter().copied());
     let (mut page, view) = page_for(bounds, options.size_px, y_up);
     let pen = Pen::for_size(options.size_px);
@@ -67,19 +66,6 @@ pub(crate) fn page_for(bounds: Rect, size_px: f64, y_up: bool) -> (Page, View) {
     (Page::new(width, height), view)
 }
 
-/// Whether a page can show the spline.
-pub(crate) fn is_drawable(spline: &Spline) -> bool {
-    let segments = spline.segments();
-    let turning: f64 = segments.iter().map(|s| s.absolute_turning()).sum();
-    let near = |v: f64| v.abs() < MAX_COORDINATE;
-    turning < MAX_TURNING && segments.iter().all(|s| near(s.start.x) && near(s.start.y) && near(s.length))
-}
-
-/// The points of a stroke that a page can show.
-pub(crate) fn drawable_points(stroke: &Stroke) -> impl Iterator<Item = Point> + '_ {
-    stroke.points.iter().copied().filter(|p| p.x.abs() < MAX_COORDINATE && p.y.abs() < MAX_COORDINATE)
-}
-
 /// The box around splines and strokes; a unit box around the origin if there are none.
 pub(crate) fn bounds<'a>(splines: impl Iterator<Item = &'a Spline>, strokes: impl Iterator<Item = &'a Stroke>) -> Rect {
     let of_splines = splines.map(Spline::bounding_box);
@@ -96,9 +82,10 @@ pub(crate) struct CombScale {
 }
 
 impl CombScale {
-    pub(crate) fn of<'a>(comb: Comb, splines: impl Iterator<Item = &'a Spline>, bounds: Rect) -> Self {
+    /// The comb with about `teeth` teeth along a line across the drawing.
+    pub(crate) fn of<'a>(comb: Comb, splines: impl Iterator<Item = &'a Spline>, bounds: Rect, teeth: f64) -> Self {
         let size = bounds.width().max(bounds.height());
-        let spacing = size / 240.0;
+        let spacing = size / teeth;
         let scale = match comb {
             Comb::Off => None,
             Comb::Scale(scale) => Some(scale).filter(|s| s.is_finite()),

@@ -11,7 +11,7 @@ pub(crate) mod colour {
     pub(crate) const LINE: &str = "#d7263d";
     pub(crate) const ARC: &str = "#1a9850";
     pub(crate) const CLOTHOID: &str = "#2166c4";
-    pub(crate) const GHOST: &str = "#c4c8ce";
+    pub(crate) const GHOST: &str = "#b9bfc8";
     pub(crate) const STROKE: &str = "#3c4149";
     pub(crate) const SAMPLE: &str = "#5b6470";
     pub(crate) const MARK: &str = "#23272e";

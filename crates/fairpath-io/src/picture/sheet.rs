@@ -1,9 +1,10 @@
 //! A contact sheet: every stroke in a cell of its own, with its name and what its spline is made of.
 
 use super::PictureOptions;
-use super::drawing::{CombScale, Pen, bounds, is_drawable};
+use super::drawing::{CombScale, Pen, bounds};
 use super::lettering;
 use super::page::{Page, Picture, View, colour, colour_of};
+use crate::drawable::is_drawable;
 use crate::spline_file::{Failure, SplineEntry, SplineFile};
 use crate::stroke_file::StrokeFile;
 use crate::unit::YAxis;
@@ -26,6 +27,9 @@ const LETTERS: f64 = 8.0;
 const SMALL_LETTERS: f64 = 6.5;
 /// Most cells of a sheet: more cannot be looked at.
 const MAX_CELLS: usize = 2000;
+
+/// Teeth of the comb along a line across a cell.
+const TEETH: f64 = 70.0;
 
 /// What one cell shows.
 struct Cell<'a> {
@@ -78,7 +82,7 @@ fn draw_cell(page: &mut Page, cell: &Cell<'_>, corner: Point, options: &PictureO
     let spline = cell.entry.map(|e| &e.spline).filter(|s| is_drawable(s));
     let ghost = cell.stroke.filter(|_| options.ghost || spline.is_none());
     let around = bounds(spline.into_iter(), ghost.into_iter());
-    let comb = CombScale::of(options.comb, spline.into_iter(), around);
+    let comb = CombScale::of(options.comb, spline.into_iter(), around, TEETH);
     let around = comb.widened(around, spline.into_iter());
     let into = Rect::new(PADDING, PADDING, CELL.0 - PADDING, DRAWING) + corner.to_vec2();
     let view = View::fit(around, into, y_up);

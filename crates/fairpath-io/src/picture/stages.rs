@@ -1,8 +1,9 @@
 //! The steps of the shortest-path method as figure 4 of Baran, Lehtinen and Popović (2010) shows them, one picture each.
 
 use super::PictureOptions;
-use super::drawing::{Pen, bounds, drawable_points, is_drawable, page_for};
+use super::drawing::{Pen, bounds, page_for};
 use super::page::{Page, Picture, View, colour, colour_of};
+use crate::drawable::{drawable_points, is_drawable};
 use crate::unit::YAxis;
 use fairpath_curve::{Kind, Spline};
 use fairpath_fit::{Candidate, Stages, Stroke};

@@ -1,0 +1,23 @@
+//! JSON schemas of our own formats, made from the types that write them.
+
+use crate::spline_json::SplinesRecord;
+use crate::strokes_json::StrokesRecord;
+use schemars::{JsonSchema, generate::SchemaSettings};
+
+/// The JSON schema (draft 2020-12) of `fairpath-strokes 1`.
+#[must_use]
+pub fn strokes_schema() -> String {
+    schema::<StrokesRecord<'_>>()
+}
+
+/// The JSON schema (draft 2020-12) of `fairpath-spline 1`.
+#[must_use]
+pub fn spline_schema() -> String {
+    schema::<SplinesRecord>()
+}
+
+fn schema<T: JsonSchema>() -> String {
+    let schema = SchemaSettings::draft2020_12().into_generator().into_root_schema_for::<T>();
+    let text = serde_json::to_string_pretty(&schema).expect("a schema is JSON");
+    text + "\n"
+}

