@@ -20,15 +20,22 @@ const FILES: &[&str] = &[
     "long.json",
 ];
 
-/// Prints the figures.
-pub(crate) fn run(repeat: usize) -> Result<()> {
+/// The file whose strokes tell how time grows with length.
+const LONG: &str = "long.json";
+
+/// Strokes longer than this have their memory measured, px.
+const HEAVY: f64 = 9000.0;
+
+/// Prints the figures for files whose names begin with one of `names`, or for all.
+pub(crate) fn run(names: &[String], repeat: usize) -> Result<()> {
+    let chosen = |file: &&&str| names.is_empty() || names.iter().any(|name| file.starts_with(name.as_str()));
     println!("Milliseconds to fit a stroke with the default preset, one thread, the best of {repeat}:\n");
     let mut rows = Vec::new();
     let mut long = Vec::new();
-    for file in FILES {
+    for file in FILES.iter().filter(chosen) {
         let strokes = data::shared(file)?;
         let times: Vec<f64> = strokes.iter().map(|stroke| best_ms(stroke, repeat)).collect();
-        if *file == "long.json" {
+        if *file == LONG {
             long = strokes.iter().zip(&times).map(|(s, &ms)| (s.name.clone(), data::polyline_length(s), ms)).collect();
         }
         let mut sorted = times.clone();
@@ -38,12 +45,19 @@ pub(crate) fn run(repeat: usize) -> Result<()> {
         row.extend(figures.iter().map(|ms: &f64| format!("{ms:.2}")));
         rows.push(row);
     }
+    if rows.is_empty() {
+        bail!("no file of that name: there are {}", FILES.join(", "));
+    }
     table::print(&["file", "strokes", "total", "median", "slowest"], &rows);
+    if long.is_empty() { Ok(()) } else { growth(&long) }
+}
 
+/// Prints how time grows with length, and the memory of the longest.
+fn growth(long: &[(String, f64, f64)]) -> Result<()> {
     println!("\nThe long strokes:\n");
     let mut rows = Vec::new();
-    for (name, length, ms) in &long {
-        let memory = if *length > 9000.0 { format!("{:.1}", peak_of("long.json", name)?) } else { "-".into() };
+    for (name, length, ms) in long {
+        let memory = if *length > HEAVY { format!("{:.1}", peak_of(LONG, name)?) } else { "-".into() };
         rows.push(vec![name.clone(), format!("{length:.0}"), format!("{ms:.2}"), memory]);
     }
     table::print(&["stroke", "px", "ms", "peak MiB"], &rows);

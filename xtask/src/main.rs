@@ -33,6 +33,8 @@ struct Cli {
 enum Chore {
     /// The one test command: style, lints, tests, documentation, layers and every outside judge.
     Test,
+    /// The judges alone: kernel, DXF and SVG.
+    Judge,
     /// Fit every file of the shared data folder, judge the results and hold them against the limits.
     Evaluate {
         /// Only files whose names begin so.
@@ -40,6 +42,8 @@ enum Chore {
     },
     /// Time the fitter, stroke by stroke in one thread, with its growth and its peak memory.
     Bench {
+        /// Only files whose names begin so.
+        names: Vec<String>,
         /// Each stroke's time is the best of so many.
         #[arg(long, default_value_t = 5)]
         repeat: usize,
@@ -77,8 +81,9 @@ enum Chore {
 fn main() -> ExitCode {
     let outcome = match Cli::parse().chore {
         Chore::Test => test::run(),
+        Chore::Judge => test::judge(),
         Chore::Evaluate { names } => evaluate::run(&names),
-        Chore::Bench { repeat } => bench::run(repeat),
+        Chore::Bench { names, repeat } => bench::run(&names, repeat),
         Chore::Table1 { repeat } => table1::run(repeat),
         Chore::Fuzz { seconds } => fuzz::run(seconds),
         Chore::Generate { check } => generate::run(check),

@@ -29,6 +29,19 @@ pub(crate) fn run() -> Result<()> {
         generate::run(true)?;
         Ok(Outcome::Passed("docs/ says what the program does".into()))
     });
+    add_judges(&mut steps);
+    evaluate::add_steps(&mut steps, &[]);
+    steps.finish()
+}
+
+/// The judges alone.
+pub(crate) fn judge() -> Result<()> {
+    let mut steps = Steps::default();
+    add_judges(&mut steps);
+    steps.finish()
+}
+
+fn add_judges(steps: &mut Steps) {
     steps.step("release build", || {
         command(&["build", "--release", "--package", "fairpath"], "the command line is built")
     });
@@ -38,8 +51,6 @@ pub(crate) fn run() -> Result<()> {
     steps.step("judge: kernel", judges::kernel);
     steps.step("judge: DXF", judges::dxf);
     steps.step("judge: SVG", judges::svg);
-    evaluate::add_steps(&mut steps, &[]);
-    steps.finish()
 }
 
 fn command(args: &[&str], note: &str) -> Result<Outcome> {

@@ -78,7 +78,7 @@ pub struct FitArgs {
     #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u16).range(0..=1024))]
     pub threads: u16,
 
-    /// End with exit code 1 if a tolerance was missed
+    /// End with exit code 1 if a curve is further than `max_error` from its stroke, or none was found that is not
     #[arg(long)]
     pub strict: bool,
 

@@ -18,6 +18,9 @@ use crate::progress::Progress;
 use crate::stopwatch::Stopwatch;
 use crate::{interrupt, parameters, pictures};
 
+/// The fitter's word for a stroke that it gave back as a polyline.
+const FALLBACK: &str = "fell-back-to-polyline";
+
 pub(crate) fn run(args: &FitArgs, printer: &mut Printer) -> Result<Ending> {
     let base = options(args, None)?;
     if args.list_parameters {
@@ -171,18 +174,19 @@ fn collect(inputs: &Inputs, outcomes: Vec<Outcome>, args: &FitArgs, ready: &mut 
     file
 }
 
-/// A sentence for each curve that is further from its stroke than asked.
+/// A sentence for each curve that is further from its stroke than asked, or is no fair curve at all.
 fn missed_tolerances(jobs: &[Job<'_>], file: &SplineFile) -> Vec<String> {
-    let mut missed = Vec::new();
     let by_name: BTreeMap<&str, &Job<'_>> = jobs.iter().map(|job| (job.stroke.name.as_str(), job)).collect();
+    let mut missed = Vec::new();
     for entry in &file.splines {
         let Some(job) = by_name.get(entry.name.as_str()) else { continue };
-        let Some(report) = &entry.report else { continue };
+        let name = fit_report::plain(&entry.name);
         let allowed = job.options.max_error * job.options.pixel_size;
-        let deviation = report.figures.max_deviation;
+        let deviation = entry.report.as_ref().map_or(0.0, |report| report.figures.max_deviation);
         if deviation > allowed {
-            let name = fit_report::plain(&entry.name);
             missed.push(format!("{name}: the curve is {deviation:.3} off, more than {allowed:.3} (max_error)"));
+        } else if entry.warnings.iter().any(|warning| warning.code == FALLBACK) {
+            missed.push(format!("{name}: no fair curve keeps within {allowed:.3} (max_error)"));
         }
     }
     missed

@@ -69,6 +69,17 @@ fn parameters_are_listed_with_the_values_of_the_other_options() {
 }
 
 #[test]
+fn strict_tells_of_missed_tolerances_and_only_strict_does() {
+    // Tremor of a third of a pixel cannot be kept within a thousandth by anything fair.
+    let args = ["fit", "examples/spiral.csv", "--set", "max_error=0.001"];
+    run(&args).ended(0);
+    let ran = run(&[&args[..], &["--strict"]].concat()).ended(1);
+    assert!(ran.err.contains("max_error"), "{}", ran.err);
+    let straight = strokes(&[("straight", &[[0.0, 0.0], [50.0, 0.0], [100.0, 0.0]])]);
+    run_with(straight.as_bytes(), &["fit", "-", "--strict"]).ended(0);
+}
+
+#[test]
 fn the_same_name_in_two_inputs_is_told_apart() {
     let folder = folder();
     for name in ["one.json", "two.json"] {
