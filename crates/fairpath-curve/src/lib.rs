@@ -7,6 +7,8 @@ mod comb;
 mod fit_source;
 mod flatten;
 mod greedy;
+mod hermite_g1;
+mod hermite_g2;
 mod lanes;
 mod moments;
 mod nearest;
@@ -20,6 +22,8 @@ pub mod trig;
 
 pub use comb::Tooth;
 pub use fit_source::FitSource;
+pub use hermite_g1::hermite_g1;
+pub use hermite_g2::hermite_g2;
 pub use kurbo::{Point, Vec2};
 pub use moments::{displacement, moments, moments_to_4};
 pub use nearest::{Nearest, SplineNearest};

@@ -3,5 +3,6 @@
 mod common;
 mod conversion;
 mod evaluation;
+mod hermite;
 mod nearest;
 mod parts;
