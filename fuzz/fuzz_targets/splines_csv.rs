@@ -11,9 +11,6 @@ fuzz_target!(|bytes: &[u8]| {
     writing.picture.size_px = 64.0;
     file.warnings.clear();
     for format in SplineFormat::ALL {
-        // Tolerances far below the curve's size are honoured with as many pieces as it takes: keep that short here.
-        writing.svg_tolerance = 1e6;
-        writing.dxf.tolerance = 1e6;
         let Ok(encoded) = encode_splines(&file, format, None, &writing) else { continue };
         match format {
             SplineFormat::Json | SplineFormat::Svg => {

@@ -1,16 +1,21 @@
-//! Draws the strokes of a file: `cargo run -p fairpath-io --example pictures -- IN OUT.png|.svg [sheet] [comb]`.
+//! Draws the strokes of a file: `cargo run -p fairpath-io --example pictures -- IN OUT.png|.svg [sheet] [comb] [stages]`.
+//! With `stages`, the pictures of figure 4 of the first stroke go beside OUT.
+//!
+//! Any other extension that splines have (json, csv, dxf) is written as such.
 //!
 //! Fits each stroke with the default options, so it shows whatever the fitter does.
 
-use fairpath_fit::{FitOptions, fit};
-use fairpath_io::picture::{Comb, Layout, PictureOptions, draw_splines};
-use fairpath_io::{Error, Failure, ReadOptions, SplineEntry, SplineFile, read_strokes, write_whole};
+use fairpath_fit::{FitOptions, Stages, fit, fit_observed};
+use fairpath_io::picture::{Comb, Layout, PictureOptions, draw_splines, draw_stages};
+use fairpath_io::{
+    Error, Failure, ReadOptions, SplineEntry, SplineFile, WriteOptions, read_strokes, write_splines, write_whole,
+};
 use std::path::Path;
 
 fn main() -> Result<(), Error> {
     let args: Vec<String> = std::env::args().skip(1).collect();
     let [input, output, words @ ..] = args.as_slice() else {
-        eprintln!("usage: pictures IN OUT.png|.svg [sheet] [comb]");
+        eprintln!("usage: pictures IN OUT.png|.svg [sheet] [comb] [stages]");
         std::process::exit(2);
     };
     let strokes = read_strokes(Path::new(input), &ReadOptions::default())?;
@@ -27,6 +32,21 @@ fn main() -> Result<(), Error> {
     }
     if words.iter().any(|w| w == "comb") {
         options.comb = Comb::Auto;
+    }
+    if let (true, Some(stroke)) = (words.iter().any(|w| w == "stages"), strokes.strokes.first()) {
+        let mut stages = Stages::default();
+        if let Ok(fit) = fit_observed(stroke, &FitOptions::default(), &mut (), Some(&mut stages)) {
+            for stage in draw_stages(stroke, &stages, &fit.spline, strokes.y, &options) {
+                let path = Path::new(output).with_extension(format!("{}-{}.png", stage.letter, stage.name));
+                write_whole(&path, &stage.picture.to_png()?)?;
+            }
+        }
+    }
+    if !output.ends_with(".svg") && !output.ends_with(".png") {
+        for warning in write_splines(Path::new(output), &splines, Some(&strokes), &WriteOptions::default())? {
+            eprintln!("{}: {}", warning.code, warning.text);
+        }
+        return Ok(());
     }
     let picture = draw_splines(&splines, Some(&strokes), &options);
     let bytes = if output.ends_with(".svg") { picture.to_svg().as_bytes().to_vec() } else { picture.to_png()? };

@@ -148,13 +148,30 @@ impl Budget {
         Self { left: limits.max_nodes, max: limits.max_nodes, what: "elements", limit: "max_nodes" }
     }
 
+    /// Bytes that are parsed, again and again where an element is used more than once.
+    pub(crate) fn work(limits: &Limits) -> Self {
+        Self {
+            left: limits.max_bytes,
+            max: limits.max_bytes,
+            what: "bytes of attributes, uses counted,",
+            limit: "max_bytes",
+        }
+    }
+
     /// Spends one.
     pub(crate) fn spend(&mut self, place: impl Fn() -> String) -> Result<(), Fault> {
-        if self.left == 0 {
-            return Err(Fault::OverLimit { place: place(), what: self.what, max: self.max, limit: self.limit });
+        self.spend_many(1, place)
+    }
+
+    /// Spends as many.
+    pub(crate) fn spend_many(&mut self, count: usize, place: impl Fn() -> String) -> Result<(), Fault> {
+        match self.left.checked_sub(count as u64) {
+            Some(left) => {
+                self.left = left;
+                Ok(())
+            }
+            None => Err(Fault::OverLimit { place: place(), what: self.what, max: self.max, limit: self.limit }),
         }
-        self.left -= 1;
-        Ok(())
     }
 
     pub(crate) fn left(&self) -> u64 {

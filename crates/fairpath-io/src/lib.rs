@@ -1,4 +1,37 @@
-//! Readers and writers of strokes and clothoid splines.
+//! Readers and writers of strokes and clothoid splines, and pictures of both.
+//!
+//! | task | use |
+//! | --- | --- |
+//! | read strokes (JSON, SVG, CSV and blank-separated text, InkML) | [`read_strokes`], [`read_strokes_from`] |
+//! | write strokes (JSON, SVG, text) | [`write_strokes`], [`encode_strokes`] |
+//! | read splines (JSON, our SVG, CSV) | [`read_splines`], [`read_splines_from`] |
+//! | write splines (JSON, SVG, CSV, DXF, PNG) | [`write_splines`], [`encode_splines`] |
+//! | convert | the two above, one after the other |
+//! | draw splines, a contact sheet, the steps of a fit | [`picture`] |
+//! | write any file whole or not at all | [`write_whole`] |
+//! | bound what a hostile file may cost | [`Limits`] in [`ReadOptions`] |
+//! | JSON schemas of the formats | [`strokes_schema`], [`spline_schema`] |
+//!
+//! Numbers are f64 all the way and are printed so that they read back to the same bits, except in pictures and where a curve is
+//! approximated, which is always within a stated tolerance. The direction of y is a label ([`YAxis`]): nothing is flipped unasked.
+//! Errors name the file, the place in it and what was expected; what could be read or written only in part comes back as a list of
+//! warnings.
+//!
+//! ```
+//! use fairpath_curve::{Continuity, Point, Segment, Spline};
+//! use fairpath_io::{ReadOptions, SplineEntry, SplineFile, SplineFormat, WriteOptions};
+//!
+//! let line = Segment::line(Point::new(0.0, 0.0), 0.0, 10.0);
+//! let arc = Segment::arc(line.end(), 0.0, 15.0, 0.1);
+//! let spline = Spline::new(vec![line, arc], vec![Continuity::G1], false)?;
+//! let entry = SplineEntry { name: "hook".into(), method: "by-hand".into(), spline, report: None, warnings: vec![] };
+//! let file = SplineFile { splines: vec![entry], ..SplineFile::default() };
+//!
+//! let svg = fairpath_io::encode_splines(&file, SplineFormat::Svg, None, &WriteOptions::default())?;
+//! let back = fairpath_io::read_splines_from(&svg.bytes[..], "hook.svg", None, &ReadOptions::default())?;
+//! assert_eq!(back, file);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod atomic;
 mod drawable;

@@ -8,10 +8,11 @@ use crate::strokes_json::{check_format, check_version, json_fault};
 use crate::unit::{Unit, YAxis};
 use fairpath_curve::{Continuity, Segment, Spline};
 use fairpath_fit::{Report, Warning};
-use schemars::JsonSchema;
-use serde::de::Error as _;
+use schemars::{JsonSchema, Schema};
+use serde::de::{Error as _, IgnoredAny, MapAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize};
 use serde_json::Value;
+use std::fmt;
 
 /// The word in the file's `format`.
 const FORMAT: &str = "fairpath-spline";
@@ -67,7 +68,7 @@ struct SplineRecord {
 
 /// A report as it is written: the figures of the fit and the times beside them.
 #[derive(Serialize, JsonSchema)]
-#[schemars(rename = "SplineReport")]
+#[schemars(rename = "SplineReport", transform = all_optional)]
 struct ReportRecord {
     #[serde(flatten)]
     figures: Report,
@@ -76,21 +77,85 @@ struct ReportRecord {
     ms: Option<Milliseconds>,
 }
 
+/// Another program need not know every figure of our reports.
+fn all_optional(schema: &mut Schema) {
+    schema.remove("required");
+}
+
 impl<'de> Deserialize<'de> for ReportRecord {
-    /// Figures that the file does not have (an older or another program wrote it) are as in a fresh report.
     fn deserialize<D: Deserializer<'de>>(d: D) -> Result<Self, D::Error> {
-        let mut given = serde_json::Map::<String, Value>::deserialize(d)?;
-        let ms = given.remove("ms").map(serde_json::from_value).transpose().map_err(D::Error::custom)?;
-        let mut figures = serde_json::to_value(Report::default()).map_err(D::Error::custom)?;
-        if let Some(known) = figures.as_object_mut() {
-            for (key, value) in known {
-                if let Some(found) = given.remove(key) {
-                    *value = found;
-                }
+        d.deserialize_map(ReportVisitor)
+    }
+}
+
+/// Reads a report without building a tree of what the file may have put there.
+struct ReportVisitor;
+
+impl<'de> Visitor<'de> for ReportVisitor {
+    type Value = ReportRecord;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("a report, an object of figures")
+    }
+
+    /// Figures that the file does not have (an older or another program wrote it) are as in a fresh report.
+    fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<ReportRecord, A::Error> {
+        let mut figures = serde_json::to_value(Report::default()).map_err(A::Error::custom)?;
+        let mut ms = None;
+        while let Some(key) = map.next_key::<String>()? {
+            if key == "ms" {
+                ms = map.next_value()?;
+            } else if let Some(known) = figures.get_mut(&key) {
+                *known = map.next_value::<Figure>()?.0;
+            } else {
+                map.next_value::<IgnoredAny>()?;
             }
         }
-        let figures = serde_json::from_value(figures).map_err(D::Error::custom)?;
-        Ok(Self { figures, ms: ms.flatten() })
+        let figures = serde_json::from_value(figures).map_err(A::Error::custom)?;
+        Ok(ReportRecord { figures, ms })
+    }
+}
+
+/// One figure of a report: a number, a word or nothing, but no list.
+struct Figure(Value);
+
+impl<'de> Deserialize<'de> for Figure {
+    fn deserialize<D: Deserializer<'de>>(d: D) -> Result<Self, D::Error> {
+        d.deserialize_any(FigureVisitor)
+    }
+}
+
+struct FigureVisitor;
+
+impl Visitor<'_> for FigureVisitor {
+    type Value = Figure;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("a figure of the report, a number")
+    }
+
+    fn visit_bool<E>(self, v: bool) -> Result<Figure, E> {
+        Ok(Figure(v.into()))
+    }
+
+    fn visit_u64<E>(self, v: u64) -> Result<Figure, E> {
+        Ok(Figure(v.into()))
+    }
+
+    fn visit_i64<E>(self, v: i64) -> Result<Figure, E> {
+        Ok(Figure(v.into()))
+    }
+
+    fn visit_f64<E>(self, v: f64) -> Result<Figure, E> {
+        Ok(Figure(v.into()))
+    }
+
+    fn visit_str<E>(self, v: &str) -> Result<Figure, E> {
+        Ok(Figure(v.into()))
+    }
+
+    fn visit_unit<E>(self) -> Result<Figure, E> {
+        Ok(Figure(Value::Null))
     }
 }
 

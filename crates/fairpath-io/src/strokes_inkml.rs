@@ -16,6 +16,9 @@ use fairpath_fit::{Stroke, Warning};
 use roxmltree::Node;
 use std::collections::HashMap;
 
+/// Most channels of a trace format; the standard names some thirty.
+const MAX_CHANNELS: usize = 64;
+
 pub(crate) fn read(text: &str, options: &ReadOptions) -> Result<StrokeFile, Fault> {
     let document = xml::parse(text, &options.limits)?;
     let root = document.root_element();
@@ -172,6 +175,12 @@ impl Format {
         };
         for node in format_node.descendants().filter(|n| n.tag_name().name() == "channel") {
             format.push(node);
+            if format.channels.len() > MAX_CHANNELS {
+                return Err(Fault::new(
+                    xml::place(node),
+                    format_args!("more than {MAX_CHANNELS} channels; leave some out"),
+                ));
+            }
             let intermittent = node.ancestors().any(|a| a.tag_name().name() == "intermittentChannels");
             format.optional += usize::from(intermittent);
         }

@@ -2,7 +2,8 @@
 //!
 //! Frame: the coordinates are those of the outermost element, y down. Its `viewBox` chooses what is shown, not where things are, so
 //! it only scales: by 1 unless it and `width` say otherwise. A `width` in mm, cm, in or pt makes that the unit, else it is px.
-//! What is not drawn (`defs`, `display="none"`) is no stroke; what is drawn but has no line to follow (text, images, and the
+//! What is not drawn (`defs`, `display="none"` as attribute or in `style`) is no stroke; style sheets, `visibility` and
+//! `transform-origin` are not looked at; what is drawn but has no line to follow (text, images, and the
 //! shapes rect, circle and ellipse) is named in a warning.
 
 use crate::error::{Error, Fault};
@@ -38,6 +39,7 @@ pub(crate) fn read(text: &str, options: &ReadOptions) -> Result<StrokeFile, Faul
         points: Budget::points(&options.limits),
         items: Budget::items(&options.limits),
         nodes: Budget::nodes(&options.limits),
+        work: Budget::work(&options.limits),
         by_id: ids(root),
         passed_over: BTreeMap::new(),
         file: StrokeFile::default(),
@@ -146,6 +148,7 @@ struct Reader<'a, 'i> {
     points: Budget,
     items: Budget,
     nodes: Budget,
+    work: Budget,
     by_id: HashMap<&'a str, Node<'a, 'i>>,
     passed_over: BTreeMap<&'a str, usize>,
     file: StrokeFile,
@@ -163,6 +166,7 @@ impl<'a, 'i: 'a> Reader<'a, 'i> {
         let at = || xml::place(node);
         let fault = |problem: String| Fault::new(at(), problem);
         self.nodes.spend(at)?;
+        self.work.spend_many(node.attributes().map(|a| a.value().len()).sum(), at)?;
         let max = self.options.limits.max_depth;
         if place.depth >= max {
             return Err(Fault::OverLimit { place: at(), what: "levels of nesting", max, limit: "max_depth" });
@@ -290,9 +294,7 @@ impl<'a, 'i: 'a> Reader<'a, 'i> {
                 let max = self.options.limits.max_points;
                 return Err(Fault::OverLimit { place: at(), what: "points", max, limit: "max_points" });
             };
-            for _ in &points {
-                self.points.spend(at)?;
-            }
+            self.points.spend_many(points.len(), at)?;
             let name = if several { format!("{base}/{i}") } else { base.clone() };
             self.file.strokes.push(Stroke::new(name, points));
         }

@@ -123,13 +123,20 @@ impl PathWalker {
 
     fn arc(&mut self, arc: SvgArc) -> Result<(), String> {
         check_curve(&[arc.from, arc.to, arc.radii.to_point()])?;
-        let radius = arc.radii.x.max(arc.radii.y).max((arc.to - arc.from).hypot());
-        let Some(elliptic) = Arc::from_svg_arc(&arc).filter(|_| arc.radii.x > 0.0 && arc.radii.y > 0.0) else {
+        let drawable = |a: &Arc| {
+            // Radii are enlarged where they do not reach from end to end.
+            let (small, large) = (a.radii.x.min(a.radii.y), a.radii.x.max(a.radii.y));
+            small > f64::MIN_POSITIVE
+                && FINEST_RELATIVE_TOLERANCE * large > f64::MIN_POSITIVE
+                && large < MAX_CURVE_COORDINATE
+        };
+        let Some(elliptic) = Arc::from_svg_arc(&arc).filter(drawable) else {
             self.line(arc.to);
             return Ok(());
         };
         self.begin();
-        let mut curves: Vec<PathEl> = elliptic.append_iter(FINEST_RELATIVE_TOLERANCE * radius).collect();
+        let tolerance = FINEST_RELATIVE_TOLERANCE * elliptic.radii.x.max(elliptic.radii.y);
+        let mut curves: Vec<PathEl> = elliptic.append_iter(tolerance).collect();
         // The arc ends where the path data say, not where rounding leaves it.
         if let Some(PathEl::CurveTo(.., end)) = curves.last_mut() {
             *end = arc.to;

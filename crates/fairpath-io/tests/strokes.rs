@@ -200,6 +200,16 @@ fn svg_curves_are_flattened_within_the_tolerance() {
 }
 
 #[test]
+fn svg_arcs_without_a_size_are_lines() {
+    for radii in ["0 5", "5 0", "1e-320 1e-320", "1 1e-300", "1e-300 1"] {
+        let file =
+            good(&format!("<svg><path d=\"M1 1A{radii} 0 0 1 3 5\"/><path d=\"M1 1A{radii} 0 0 1 1 1h1\"/></svg>"));
+        assert_eq!(points(&file.strokes[0]), [(1.0, 1.0), (3.0, 5.0)], "{radii}");
+        assert_eq!(file.strokes[1].points.last(), Some(&Point::new(2.0, 1.0)), "{radii}");
+    }
+}
+
+#[test]
 fn svg_lengths_and_view_boxes_give_unit_and_scale() {
     let frame = |attributes: &str| {
         let file = good(&format!("<svg {attributes}><line x2=\"10\" y2=\"20\"/></svg>"));
@@ -231,6 +241,7 @@ fn svg_that_breaks_the_rules_is_refused_with_line_and_element() {
         ("<html/>", "expected <svg>"),
         ("<svg>\n<path id=\"p\" d=\"M0 0L1\"/></svg>", "line 2, <path id=\"p\">: the path data are faulty"),
         ("<svg><path d=\"L1 1\"/></svg>", "path data"),
+        ("<svg><path d=\"M0 0A1e-300 1e300 0 0 1 1 1\"/></svg>", "beyond"),
         ("<svg><polyline points=\"1 2 3\"/></svg>", "expected an even count"),
         ("<svg><polyline points=\"1 2 x\"/></svg>", "points are faulty"),
         ("<svg><g transform=\"rotate(\"><line/></g></svg>", "transform is faulty"),
@@ -399,6 +410,12 @@ fn svg_bombs_are_refused() {
     let long = "x".repeat(1 << 20);
     let quadratic = format!("<!DOCTYPE svg [<!ENTITY a '{long}'>]><svg>{}</svg>", "<text>&a;</text>".repeat(1000));
     assert!(message_of(&quadratic).contains("max_bytes"));
+    let mut options = ReadOptions::default();
+    options.limits.max_bytes = 1 << 20;
+    let idle = "M1 1".repeat(10_000);
+    let busy = format!("<svg><path id=\"p\" d=\"{idle}\"/>{}</svg>", "<use href=\"#p\"/>".repeat(10_000));
+    let error = read_strokes_from(busy.as_bytes(), "bomb", None, &options).unwrap_err();
+    assert!(error.to_string().contains("uses counted"), "{error}");
     let deep = format!("{}{}", "<g>".repeat(100_000), "</g>".repeat(100_000));
     assert!(message_of(&format!("<svg>{deep}</svg>")).contains("max_depth"));
     let external =

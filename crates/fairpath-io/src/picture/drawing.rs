@@ -2,7 +2,7 @@
 
 use super::page::{Page, Picture, View, colour, colour_of};
 use super::{Comb, Layout, PictureOptions, sheet};
-use crate::drawable::{drawable_points, is_drawable};
+use crate::drawable::{Drawable, drawable_points};
 use crate::spline_file::SplineFile;
 use crate::stroke_file::StrokeFile;
 use crate::unit::YAxis;
@@ -19,6 +19,9 @@ const COMB_OUTLIERS: f64 = 0.02;
 /// Teeth of the comb along a line across the page.
 const TEETH: f64 = 220.0;
 
+/// Points of the line through the comb's tips for each tooth that is drawn.
+const TIPS_PER_TOOTH: usize = 4;
+
 /// A picture of splines, with `strokes`, if given, behind them.
 ///
 /// Strokes without a spline are shown too. What no page can show (coordinates beyond 1e60, spirals of more than 1e5 rad) is left out.
@@ -28,7 +31,8 @@ pub fn draw_splines(file: &SplineFile, strokes: Option<&StrokeFile>, options: &P
         return sheet::draw(file, strokes, options, columns);
     }
     let y_up = file.y == YAxis::Up;
-    let shown: Vec<&Spline> = file.splines.iter().map(|e| &e.spline).filter(|s| is_drawable(s)).collect();
+    let mut drawable = Drawable::default();
+    let shown: Vec<&Spline> = file.splines.iter().map(|e| &e.spline).filter(|s| drawable.admits(s)).collect();
     let ghosts: &[Stroke] = strokes.filter(|_| options.ghost).map_or(&[], |s| &s.strokes);
     let bounds = bounds(shown.iter().copied(), ghosts.iter());
     let comb = CombScale::of(options.comb, shown.iter().copied(), bounds, TEETH);
@@ -71,6 +75,23 @@ pub(crate) fn bounds<'a>(splines: impl Iterator<Item = &'a Spline>, strokes: imp
     let of_splines = splines.map(Spline::bounding_box);
     let of_strokes = strokes.flat_map(drawable_points).map(|p| Rect::from_points(p, p));
     of_splines.chain(of_strokes).reduce(|a, b| a.union(b)).unwrap_or(Rect::new(-0.5, -0.5, 0.5, 0.5))
+}
+
+/// Points of the page without those too near to the one before to be told from it; the last stays.
+pub(crate) fn thinned(points: impl Iterator<Item = Point>) -> impl Iterator<Item = Point> {
+    const APART_PX: f64 = 0.2;
+    let mut points = points.peekable();
+    let mut kept: Option<Point> = None;
+    std::iter::from_fn(move || {
+        loop {
+            let p = points.next()?;
+            let last = points.peek().is_none();
+            if last || kept.is_none_or(|k| (p - k).hypot() >= APART_PX) {
+                kept = Some(p);
+                return kept;
+            }
+        }
+    })
 }
 
 /// How long the comb's teeth are, and how dense.
@@ -123,7 +144,7 @@ impl Pen {
 
     /// The stroke as drawn, pale, with its points.
     pub(crate) fn ghost(&self, page: &mut Page, view: &View, stroke: &Stroke) {
-        let on_page = || drawable_points(stroke).map(|p| view.point(p));
+        let on_page = || thinned(drawable_points(stroke).map(|p| view.point(p)));
         page.polyline(
             on_page(),
             format_args!(
@@ -132,32 +153,46 @@ impl Pen {
                 self.unit
             ),
         );
-        page.dots(on_page(), 1.7 * self.unit, format_args!("stroke=\"{}\"", colour::GHOST));
+        page.dots(on_page(), 1.6 * self.unit, format_args!("stroke=\"{}\"", colour::GHOST));
     }
 
     /// The segments in the colours of their kinds.
     pub(crate) fn spline(&self, page: &mut Page, view: &View, spline: &Spline) {
-        page.open(format_args!("fill=\"none\" stroke-width=\"{:.2}\"", 2.6 * self.unit));
+        page.open(format_args!("fill=\"none\" stroke-width=\"{:.2}\"", 2.1 * self.unit));
         for s in spline.segments() {
             page.path(&view.segment(s), format_args!("stroke=\"{}\"", colour_of(s.kind())));
         }
         page.close();
     }
 
-    /// The curvature comb: thin teeth and the line through their tips.
+    /// The curvature comb: thin teeth and the line through their tips, which breaks at corners: there is no curvature there.
     pub(crate) fn comb(&self, page: &mut Page, view: &View, spline: &Spline, comb: CombScale) {
         let Some(scale) = comb.scale else { return };
-        let teeth = spline.comb(comb.spacing, scale);
+        let teeth = spline.comb(comb.spacing / TIPS_PER_TOOTH as f64, scale);
         let mut lines = BezPath::new();
+        let mut tips = BezPath::new();
+        let mut before = None;
+        let mut in_segment = 0;
         for t in &teeth {
-            lines.move_to(view.point(t.base));
-            lines.line_to(view.point(t.tip));
+            let corner = |i: usize| spline.joins().get(i) == Some(&Continuity::G0);
+            let new = before != Some(t.segment);
+            let tip = view.point(t.tip);
+            if before.is_none() || new && before.is_some_and(corner) {
+                tips.move_to(tip);
+            } else {
+                tips.line_to(tip);
+            }
+            in_segment = if new { 0 } else { in_segment + 1 };
+            if in_segment % TIPS_PER_TOOTH == 0 {
+                lines.move_to(view.point(t.base));
+                lines.line_to(tip);
+            }
+            before = Some(t.segment);
         }
         let width = 0.55 * self.unit;
-        let colour = colour::COMB;
-        page.open(format_args!("fill=\"none\" stroke=\"{colour}\" stroke-width=\"{width:.2}\""));
+        page.open(format_args!("fill=\"none\" stroke=\"{}\" stroke-width=\"{width:.2}\"", colour::COMB));
         page.path(&lines, format_args!("opacity=\"0.55\""));
-        page.polyline(teeth.iter().map(|t| view.point(t.tip)), format_args!("stroke-width=\"{:.2}\"", 1.6 * width));
+        page.path(&tips, format_args!("stroke-width=\"{:.2}\"", 1.6 * width));
         page.close();
     }
 

@@ -4,7 +4,7 @@ use super::PictureOptions;
 use super::drawing::{CombScale, Pen, bounds};
 use super::lettering;
 use super::page::{Page, Picture, View, colour, colour_of};
-use crate::drawable::is_drawable;
+use crate::drawable::Drawable;
 use crate::spline_file::{Failure, SplineEntry, SplineFile};
 use crate::stroke_file::StrokeFile;
 use crate::unit::YAxis;
@@ -79,7 +79,7 @@ pub(crate) fn draw(
 }
 
 fn draw_cell(page: &mut Page, cell: &Cell<'_>, corner: Point, options: &PictureOptions, y_up: bool) {
-    let spline = cell.entry.map(|e| &e.spline).filter(|s| is_drawable(s));
+    let spline = cell.entry.map(|e| &e.spline).filter(|s| Drawable::default().admits(s));
     let ghost = cell.stroke.filter(|_| options.ghost || spline.is_none());
     let around = bounds(spline.into_iter(), ghost.into_iter());
     let comb = CombScale::of(options.comb, spline.into_iter(), around, TEETH);

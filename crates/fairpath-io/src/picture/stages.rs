@@ -1,9 +1,9 @@
 //! The steps of the shortest-path method as figure 4 of Baran, Lehtinen and Popović (2010) shows them, one picture each.
 
 use super::PictureOptions;
-use super::drawing::{Pen, bounds, page_for};
+use super::drawing::{Pen, bounds, page_for, thinned};
 use super::page::{Page, Picture, View, colour, colour_of};
-use crate::drawable::{drawable_points, is_drawable};
+use crate::drawable::{Drawable, drawable_points};
 use crate::unit::YAxis;
 use fairpath_curve::{Kind, Spline};
 use fairpath_fit::{Candidate, Stages, Stroke};
@@ -34,7 +34,7 @@ pub fn draw_stages(
     y: YAxis,
     options: &PictureOptions,
 ) -> Vec<StagePicture> {
-    let shown = Some(spline).filter(|s| is_drawable(s));
+    let shown = Some(spline).filter(|s| Drawable::default().admits(s));
     let frame = bounds(shown.into_iter(), std::iter::once(stroke));
     let pen = Pen::for_size(options.size_px);
     let draw = |letter, name, content: &dyn Fn(&mut Page, &View)| {
@@ -66,7 +66,7 @@ pub fn draw_stages(
 }
 
 fn input(page: &mut Page, view: &View, pen: Pen, stroke: &Stroke) {
-    let points = || drawable_points(stroke).map(|p| view.point(p));
+    let points = || thinned(drawable_points(stroke).map(|p| view.point(p)));
     let width = 1.6 * pen.unit;
     page.polyline(points(), format_args!("fill=\"none\" stroke=\"{}\" stroke-width=\"{width:.2}\"", colour::STROKE));
     page.dots(points(), 2.2 * pen.unit, format_args!("stroke=\"{}\"", colour::STROKE));
@@ -89,16 +89,15 @@ fn samples(page: &mut Page, view: &View, pen: Pen, stages: &Stages) {
 fn candidates(page: &mut Page, view: &View, pen: Pen, stages: &Stages) {
     let drawable = |c: &&Candidate| c.segment.is_valid() && c.segment.absolute_turning() < 100.0;
     let every = stages.candidates.len().div_ceil(MAX_CANDIDATES).max(1);
-    // Short pieces lie over long ones, and each kind in a layer of its own, so that no colour drowns the others.
+    // The longest kinds lie lowest and the more there are of a kind the paler it is, so that none drowns the others.
     for kind in [Kind::Clothoid, Kind::Arc, Kind::Line] {
-        let mut of_kind: Vec<&Candidate> =
-            stages.candidates.iter().step_by(every).filter(drawable).filter(|c| c.segment.kind() == kind).collect();
-        of_kind.sort_by(|a, b| b.segment.length.total_cmp(&a.segment.length));
-        let opacity = (14.0 / (of_kind.len() as f64).sqrt()).clamp(0.12, 0.7);
+        let of_kind = stages.candidates.iter().step_by(every).filter(drawable).filter(|c| c.segment.kind() == kind);
+        let of_kind: Vec<&Candidate> = of_kind.collect();
+        let opacity = (4.5 / (of_kind.len() as f64).sqrt()).clamp(0.12, 0.6);
         page.open(format_args!(
             "fill=\"none\" stroke=\"{}\" stroke-width=\"{:.2}\" stroke-opacity=\"{opacity:.2}\"",
             colour_of(kind),
-            0.9 * pen.unit
+            0.7 * pen.unit
         ));
         for c in of_kind {
             page.path(&view.segment(&c.segment), format_args!(""));
@@ -108,7 +107,7 @@ fn candidates(page: &mut Page, view: &View, pen: Pen, stages: &Stages) {
 }
 
 fn path(page: &mut Page, view: &View, pen: Pen, stages: &Stages) {
-    page.open(format_args!("fill=\"none\" stroke-width=\"{:.2}\"", 2.2 * pen.unit));
+    page.open(format_args!("fill=\"none\" stroke-width=\"{:.2}\"", 2.1 * pen.unit));
     let chosen = || stages.path.iter().filter_map(|&i| stages.candidates.get(i)).filter(|c| c.segment.is_valid());
     for c in chosen() {
         page.path(&view.segment(&c.segment), format_args!("stroke=\"{}\"", colour_of(c.segment.kind())));
