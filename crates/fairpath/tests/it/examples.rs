@@ -95,3 +95,29 @@ fn standard_input_is_read_by_content() {
         assert_eq!(file["splines"].as_array().unwrap().len(), *strokes, "{input}");
     }
 }
+
+#[test]
+fn every_command_of_the_readme_runs() {
+    let folder = folder();
+    fs::create_dir(folder.path().join("examples")).unwrap();
+    for (input, _) in INPUTS {
+        fs::copy(root().join("examples").join(input), folder.path().join("examples").join(input)).unwrap();
+    }
+    let readme = fs::read_to_string(root().join("README.md")).unwrap();
+    let code = readme.split("```sh").skip(1).filter_map(|rest| rest.split("```").next());
+    let mut count = 0;
+    for line in code.flat_map(str::lines) {
+        let line = line.split(" #").next().unwrap_or_default().trim();
+        let arguments = line.strip_prefix("cargo run --release -- ").or_else(|| line.strip_prefix("fairpath "));
+        // An ellipsis or a word in capitals stands for something else.
+        let Some(arguments) = arguments.filter(|text| !text.contains(['…', '[']) && !text.contains(" IN ")) else {
+            continue;
+        };
+        super::run_in(folder.path(), &arguments.split_whitespace().collect::<Vec<_>>()).ended(0);
+        count += 1;
+    }
+    assert!(count >= 8, "only {count} commands were found");
+    for written in ["hello.svg", "leaf.dxf", "hello.json", "comb.svg", "steps"] {
+        assert!(folder.path().join(written).exists(), "{written}");
+    }
+}
