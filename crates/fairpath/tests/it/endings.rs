@@ -116,3 +116,46 @@ fn a_file_in_millimetres_has_pixels_of_a_hundredth_inch() {
     assert_eq!(out, same);
     assert_eq!(read_json(&folder.path().join("out.json"))["unit"], "mm");
 }
+
+#[test]
+fn whatever_the_strokes_are_each_appears_once_and_every_figure_is_finite() {
+    let bend = |size: f64, at: f64| BEND.iter().map(|p| [at + size * p[0], size * p[1]]).collect::<Vec<_>>();
+    let round = |turns: f64, radius: fn(f64) -> f64| -> Vec<[f64; 2]> {
+        let angles = (0..=(turns * 40.0) as usize).map(|i| i as f64 * std::f64::consts::TAU / 40.0);
+        angles.map(|a| [radius(a) * a.cos(), radius(a) * a.sin()]).collect()
+    };
+    let there = bend(1.0, 0.0);
+    let back: Vec<[f64; 2]> = there.iter().chain(there.iter().rev()).copied().collect();
+    let lists = [
+        ("empty", Vec::new()),
+        ("one point", vec![[1.0, 2.0]]),
+        ("equal points", vec![[3.0, 3.0]; 20]),
+        ("two points", vec![[0.0, 0.0], [50.0, 10.0]]),
+        ("circle traced three times", round(3.0, |_| 60.0)),
+        ("spiral of 20 turns", round(20.0, |a| 2.0 * a)),
+        ("retraced line", back),
+        ("staircase", (0_u32..80).map(|i| [f64::from(i / 2) * 3.0, f64::from(i.div_ceil(2)) * 3.0]).collect()),
+        ("zigzag", (0..60).map(|i| [f64::from(i) * 3.0, f64::from(i % 2) * 20.0]).collect()),
+        ("large", bend(1e3, 0.0)),
+        ("immense", bend(1e300, 0.0)),
+        ("tiny", bend(1e-12, 0.0)),
+        ("denormal", vec![[5e-324, 0.0], [0.0, 5e-324]]),
+        ("far away", bend(1.0, 1e12)),
+    ];
+    let borrowed: Vec<(&str, &[[f64; 2]])> = lists.iter().map(|(name, points)| (*name, points.as_slice())).collect();
+    let file = run_with(strokes(&borrowed).as_bytes(), &["fit", "-", "-o", "-", "--format", "json"]).ended(1).json();
+    let named = |key: &str| file[key].as_array().unwrap().iter().map(|entry| entry["name"].as_str().unwrap());
+    let mut seen: Vec<&str> = named("splines").chain(named("failures")).collect();
+    let mut wanted: Vec<&str> = lists.iter().map(|(name, _)| *name).collect();
+    seen.sort_unstable();
+    wanted.sort_unstable();
+    assert_eq!(seen, wanted);
+    for spline in file["splines"].as_array().unwrap() {
+        for segment in spline["segments"].as_array().unwrap() {
+            for key in ["x", "y", "heading", "length", "kappa0", "kappa1"] {
+                // JSON has no infinity and no NaN: they would be null.
+                assert!(segment[key].is_number(), "{spline}");
+            }
+        }
+    }
+}
