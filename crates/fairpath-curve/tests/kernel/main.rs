@@ -4,5 +4,7 @@ mod common;
 mod conversion;
 mod evaluation;
 mod hermite;
+mod intersect;
 mod nearest;
+mod offset;
 mod parts;
