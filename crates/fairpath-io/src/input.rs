@@ -153,7 +153,7 @@ impl Budget {
         Self {
             left: limits.max_bytes,
             max: limits.max_bytes,
-            what: "bytes of attributes, uses counted,",
+            what: "bytes of attributes, counting every use",
             limit: "max_bytes",
         }
     }

@@ -1,9 +1,10 @@
 //! Splines as a table, one row per segment:
 //! `name,index,kind,x,y,heading,length,kappa0,kappa1,join`.
 //!
-//! `index` counts from 0 in each spline; `join` is the continuity towards the next segment, empty after the last of an open spline;
-//! a closed spline has one there, towards its first. Unit and direction of y stand in comments above. Method, report, warnings and
-//! failures have no place in the table: failures are listed in comments, the rest is left out.
+//! `kind` follows from the curvatures and is not looked at when reading. `index` counts from 0 in each spline; `join` is the
+//! continuity towards the next segment, empty after the last of an open spline; a closed spline has one there, towards its first.
+//! Unit and direction of y stand in comments above. Method, report, warnings and failures have no place in the table: failures are
+//! listed in comments, the rest is left out.
 
 use crate::error::{Error, Fault};
 use crate::input::Budget;
@@ -194,10 +195,6 @@ impl<'r> Row<'r> {
         };
         let start = Point::new(number(3)?, number(4)?);
         let segment = Segment::clothoid(start, number(5)?, number(6)?, number(7)?, number(8)?);
-        let kind = kind_word(segment.kind());
-        if record[2].trim() != kind {
-            return Err(format!("kind is {:?}, but the curvatures are those of a {kind}", &record[2]));
-        }
         Ok(Self { name: &record[0], index, segment, join })
     }
 }

@@ -113,6 +113,7 @@ pub(crate) fn read(text: &str, options: &ReadOptions) -> Result<StrokeFile, Faul
         points: Budget::points(&options.limits),
         items: Budget::items(&options.limits),
         over: None,
+        inside: None,
         file: StrokeFile::default(),
     };
     let mut json = serde_json::Deserializer::from_str(text);
@@ -120,7 +121,10 @@ pub(crate) fn read(text: &str, options: &ReadOptions) -> Result<StrokeFile, Faul
     if let Some(over) = state.over {
         return Err(over);
     }
-    result.map_err(|e| json_fault(&e))?;
+    result.map_err(|e| match (json_fault(&e), state.inside.as_deref()) {
+        (Fault::Malformed { place, problem }, Some(stroke)) => Fault::new(format_args!("{place}, {stroke}"), problem),
+        (fault, _) => fault,
+    })?;
     Ok(state.file)
 }
 
@@ -138,6 +142,8 @@ struct State {
     points: Budget,
     items: Budget,
     over: Option<Fault>,
+    /// The stroke that is being read, for messages.
+    inside: Option<String>,
     file: StrokeFile,
 }
 
@@ -268,11 +274,16 @@ impl<'de> Visitor<'de> for StrokeSeed<'_> {
 
     fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Stroke, A::Error> {
         self.0.spend(false)?;
+        self.0.inside = Some(format!("stroke {}", self.0.file.strokes.len()));
         let mut name = None;
         let mut points = None;
         while let Some(key) = map.next_key::<String>()? {
             match key.as_str() {
-                "name" => name = Some(map.next_value::<String>()?),
+                "name" => {
+                    let given: String = map.next_value()?;
+                    self.0.inside = Some(format!("stroke {} {given:?}", self.0.file.strokes.len()));
+                    name = Some(given);
+                }
                 "points" if points.is_some() => return Err(de::Error::duplicate_field("points")),
                 "points" => points = Some(map.next_value_seed(PointsSeed(self.0))?),
                 _ => {
@@ -281,6 +292,7 @@ impl<'de> Visitor<'de> for StrokeSeed<'_> {
             }
         }
         let mut stroke = points.ok_or_else(|| de::Error::missing_field("points"))?;
+        self.0.inside = None;
         stroke.name = name.unwrap_or_else(|| format!("stroke/{}", self.0.file.strokes.len()));
         Ok(stroke)
     }

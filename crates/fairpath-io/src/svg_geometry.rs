@@ -14,7 +14,9 @@ const FINEST_RELATIVE_TOLERANCE: f64 = 1e-9;
 pub(crate) fn subpaths(data: &str) -> Result<Vec<BezPath>, String> {
     let mut walker = PathWalker::default();
     for segment in PathParser::from(data) {
-        walker.step(segment.map_err(|e| format!("the path data are faulty: {e}"))?)?;
+        walker.step(segment.map_err(|e| {
+            format!("the path data are faulty: {e}; expected commands with all their numbers, such as M0 0L1 1")
+        })?)?;
     }
     walker.finish();
     Ok(walker.done)

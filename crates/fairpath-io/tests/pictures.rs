@@ -77,7 +77,11 @@ fn a_sheet_has_a_cell_for_each_stroke_also_where_fitting_failed() {
     options.layout = Layout::Sheet { columns: Some(3) };
     options.comb = Comb::Auto;
     let picture = draw_splines(&file, Some(&strokes), &options);
-    assert_eq!(picture.size_px().0, 3.0 * 240.0 + 48.0);
+    assert_eq!(picture.size_px().0, 1600.0);
+    let many = StrokeFile::new((0..60).map(|i| Stroke::new(i.to_string(), vec![Point::ZERO])).collect());
+    options.layout = Layout::Sheet { columns: None };
+    let large = draw_splines(&SplineFile::default(), Some(&many), &options);
+    assert_eq!(large.size_px(), (10.0 * 240.0 + 48.0, 6.0 * 236.0 + 48.0));
     keep("sheet.png", &picture.to_png().unwrap());
 }
 

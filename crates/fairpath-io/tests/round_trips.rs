@@ -137,7 +137,9 @@ proptest! {
     #[test]
     fn strokes_survive_text(mut file in stroke_file()) {
         file.strokes.retain(|s| !s.times_s.is_empty() || s.pressures.is_empty());
-        prop_assume!(!file.strokes.is_empty());
+        if file.strokes.is_empty() {
+            return Ok(());
+        }
         let bytes = encode_strokes(&file, StrokeFormat::Text).unwrap();
         let back = read_strokes_from(&bytes[..], "it", None, &ReadOptions::default()).unwrap();
         prop_assert_eq!(stroke_bits(&back), stroke_bits(&file));

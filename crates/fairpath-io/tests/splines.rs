@@ -127,7 +127,6 @@ fn csv_that_breaks_the_rules_is_refused_with_its_line() {
         ("a,1,line,0,0,0,1,0,0,\n", "line 2: segment 1"),
         ("a,0,line,0,0,0,1,0,0,\nb,1,line,1,0,0,1,0,0,\n", "line 3: segment 1 of \"b\""),
         ("a,0,line,0,nan,0,1,0,0,\n", "line 2: y is \"nan\""),
-        ("a,0,arc,0,0,0,1,0,0,\n", "line 2: kind is \"arc\""),
         ("a,0,line,0,0,0,1,0,0,G9\n", "line 2: join is \"G9\""),
         ("a,0,line,0,0,0,1,0,0,\na,1,line,1,0,0,1,0,0,\n", "segment 0: its join is empty"),
         ("a,0,line,0,0,0,-1,0,0,\n", "spline \"a\""),

@@ -57,7 +57,7 @@ fn json_that_breaks_the_rules_is_refused_with_its_place() {
         (r#"{"format":"fairpath-spline","version":1}"#, "convert them instead"),
         (r#"{"format":"fairpath-strokes","version":2,"strokes":[]}"#, "version 2 is not known"),
         (r#"{"format":"fairpath-strokes","version":1,"unit":"elephant","strokes":[]}"#, "`px`"),
-        (&wrap("[[1]]"), "line 2"),
+        (&wrap("[[1]]"), "line 2, column 25, stroke 0 \"a\": invalid length 1"),
         (&wrap("[[1]]"), "expected a point [x,y]"),
         (&wrap("[[1,2],[1,2,3]]"), "different lengths"),
         (&wrap("[[1,2,null]]"), "null"),
@@ -71,6 +71,15 @@ fn json_that_breaks_the_rules_is_refused_with_its_place() {
     for (text, expected) in cases {
         let message = message(text, StrokeFormat::Json);
         assert!(message.contains(expected) && message.starts_with("drawing: "), "{text:.80}: {message}");
+    }
+}
+
+#[test]
+fn bytes_that_are_no_text_are_refused_with_their_place() {
+    for format in [StrokeFormat::Json, StrokeFormat::Svg, StrokeFormat::InkMl] {
+        assert!(message(b"<svg>\n\xff", format).contains("line 2, byte 6: the text is not UTF-8"));
+        assert!(message(b" \r\n\t", format).contains("the file is empty"));
+        assert!(message(b"\0\0\0\0", format).contains("line 1"));
     }
 }
 
@@ -415,7 +424,7 @@ fn svg_bombs_are_refused() {
     let idle = "M1 1".repeat(10_000);
     let busy = format!("<svg><path id=\"p\" d=\"{idle}\"/>{}</svg>", "<use href=\"#p\"/>".repeat(10_000));
     let error = read_strokes_from(busy.as_bytes(), "bomb", None, &options).unwrap_err();
-    assert!(error.to_string().contains("uses counted"), "{error}");
+    assert!(error.to_string().contains("counting every use"), "{error}");
     let deep = format!("{}{}", "<g>".repeat(100_000), "</g>".repeat(100_000));
     assert!(message_of(&format!("<svg>{deep}</svg>")).contains("max_depth"));
     let external =

@@ -56,9 +56,14 @@ pub fn draw_splines(file: &SplineFile, strokes: Option<&StrokeFile>, options: &P
     page.finish()
 }
 
+/// A page's size within what can be drawn and seen, px.
+pub(crate) fn sane_size(size_px: f64) -> f64 {
+    if size_px.is_finite() { size_px.clamp(64.0, 16_384.0) } else { 1600.0 }
+}
+
 /// A page of the drawing's proportions, its longer side `size_px`, and the drawing's place on it.
 pub(crate) fn page_for(bounds: Rect, size_px: f64, y_up: bool) -> (Page, View) {
-    let size_px = if size_px.is_finite() { size_px.clamp(64.0, 16_384.0) } else { 1600.0 };
+    let size_px = sane_size(size_px);
     let (w, h) = (bounds.width(), bounds.height());
     // A page is at most four times as long as wide.
     let longest = w.max(h);
@@ -139,7 +144,7 @@ pub(crate) struct Pen {
 
 impl Pen {
     pub(crate) fn for_size(size_px: f64) -> Self {
-        Self { unit: if size_px.is_finite() { size_px.clamp(64.0, 16_384.0) / 1000.0 } else { 1.6 } }
+        Self { unit: sane_size(size_px) / 1000.0 }
     }
 
     /// The stroke as drawn, pale, with its points.

@@ -44,7 +44,8 @@ pub enum Comb {
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct PictureOptions {
-    /// Longest side of the page, px; a sheet's cells have a fixed size instead. Default 1600.
+    /// Longest side of the page, px, from 64 to 16,384. A sheet of many strokes becomes larger: its cells are at least 240 px wide.
+    /// Default 1600.
     pub size_px: f64,
     /// Whether the strokes are shown behind their splines. Default yes.
     pub ghost: bool,

@@ -92,11 +92,17 @@ pub(crate) struct Page {
     body: String,
     width: f64,
     height: f64,
+    zoom: f64,
 }
 
 impl Page {
     pub(crate) fn new(width: f64, height: f64) -> Self {
-        Self { body: String::new(), width: width.round().max(1.0), height: height.round().max(1.0) }
+        Self { body: String::new(), width: width.round().max(1.0), height: height.round().max(1.0), zoom: 1.0 }
+    }
+
+    /// The same page shown larger.
+    pub(crate) fn zoomed(self, zoom: f64) -> Self {
+        Self { zoom, ..self }
     }
 
     fn put(&mut self, args: Arguments<'_>) {
@@ -173,13 +179,14 @@ impl Page {
 
     pub(crate) fn finish(self) -> Picture {
         let (w, h) = (self.width, self.height);
+        let (width_px, height_px) = ((w * self.zoom).round(), (h * self.zoom).round());
         let svg = format!(
-            "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{w}\" \
-             height=\"{h}\" viewBox=\"0 0 {w} {h}\">\n<rect width=\"{w}\" height=\"{h}\" fill=\"#ffffff\"/>\n\
+            "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width_px}\" \
+             height=\"{height_px}\" viewBox=\"0 0 {w} {h}\">\n<rect width=\"{w}\" height=\"{h}\" fill=\"#ffffff\"/>\n\
              <g stroke-linecap=\"round\" stroke-linejoin=\"round\">\n{}</g>\n</svg>\n",
             self.body
         );
-        Picture { svg, width_px: w, height_px: h }
+        Picture { svg, width_px, height_px }
     }
 }
 

@@ -1,7 +1,7 @@
 //! A contact sheet: every stroke in a cell of its own, with its name and what its spline is made of.
 
 use super::PictureOptions;
-use super::drawing::{CombScale, Pen, bounds};
+use super::drawing::{CombScale, Pen, bounds, sane_size};
 use super::lettering;
 use super::page::{Page, Picture, View, colour, colour_of};
 use crate::drawable::Drawable;
@@ -25,6 +25,8 @@ const MARGIN: f64 = 24.0;
 const LETTERS: f64 = 8.0;
 /// Height of the smaller line below.
 const SMALL_LETTERS: f64 = 6.5;
+/// Sheets of few cells are shown so much larger at most.
+const MAX_ZOOM: f64 = 2.5;
 /// Most cells of a sheet: more cannot be looked at.
 const MAX_CELLS: usize = 2000;
 
@@ -70,7 +72,9 @@ pub(crate) fn draw(
     // A page somewhat wider than high.
     let columns = columns.unwrap_or_else(|| (1.5 * count as f64).sqrt().ceil() as usize).clamp(1, count);
     let rows = count.div_ceil(columns);
-    let mut page = Page::new(columns as f64 * CELL.0 + 2.0 * MARGIN, rows as f64 * CELL.1 + 2.0 * MARGIN);
+    let (width, height) = (columns as f64 * CELL.0 + 2.0 * MARGIN, rows as f64 * CELL.1 + 2.0 * MARGIN);
+    let zoom = (sane_size(options.size_px) / width.max(height)).clamp(1.0, MAX_ZOOM);
+    let mut page = Page::new(width, height).zoomed(zoom);
     for (i, cell) in cells.iter().enumerate() {
         let corner = Point::new(MARGIN + (i % columns) as f64 * CELL.0, MARGIN + (i / columns) as f64 * CELL.1);
         draw_cell(&mut page, cell, corner, options, file.y == YAxis::Up);
