@@ -96,7 +96,7 @@ def write_svg(file, strokes):
 
 
 def write_csv(file, strokes):
-    blocks = ["\n".join(f"{x},{y},{t}" for x, y, t, _ in s["points"]) for s in strokes]
+    blocks = ["\n".join([f'# name: {s["name"]}', *(f"{x},{y},{t}" for x, y, t, _ in s["points"])]) for s in strokes]
     (HERE / file).write_text("x,y,t\n" + "\n\n".join(blocks) + "\n")
 
 
