@@ -21,7 +21,7 @@ const FILES: &[&str] = &[
 ];
 
 /// The file whose strokes tell how time grows with length.
-const LONG: &str = "long.json";
+pub(crate) const LONG: &str = "long.json";
 
 /// A stroke that has taken this long is not timed again: the first run tells enough.
 const PATIENCE_MS: f64 = 5000.0;
@@ -64,8 +64,10 @@ fn growth(long: &[(String, f64, f64)]) -> Result<()> {
         rows.push(vec![name.clone(), format!("{length:.0}"), format!("{ms:.2}"), memory]);
     }
     table::print(&["stroke", "px", "ms", "peak MiB"], &rows);
-    let points: Vec<(f64, f64)> = long.iter().map(|(_, length, ms)| (length.ln(), ms.ln())).collect();
-    println!("\ngrowth: ms = length^{:.2}, by least squares over these", slope(&points));
+    println!(
+        "\ngrowth: ms ~ length^{:.2}, by least squares over these",
+        exponent(long.iter().map(|row| (row.1, row.2)))
+    );
     Ok(())
 }
 
@@ -85,6 +87,11 @@ fn best_ms(stroke: &Stroke, repeat: usize) -> f64 {
         spent += ms;
     }
     best
+}
+
+/// The power of length by which time grows, by least squares over their logarithms.
+pub(crate) fn exponent(points: impl Iterator<Item = (f64, f64)>) -> f64 {
+    slope(&points.map(|(length, ms)| (length.ln(), ms.ln())).collect::<Vec<_>>())
 }
 
 /// The slope of the least-squares line.
@@ -119,8 +126,8 @@ pub(crate) fn peak_memory(file: &Path, name: &str) -> Result<()> {
 #[cfg(test)]
 mod tests {
     #[test]
-    fn slope_of_a_power_law_is_its_exponent() {
-        let points: Vec<(f64, f64)> = (1..9).map(f64::from).map(|x| (x.ln(), (3.0 * x.powf(1.25)).ln())).collect();
-        assert!((super::slope(&points) - 1.25).abs() < 1e-12);
+    fn the_exponent_of_a_power_law_is_found() {
+        let points = (1..9).map(f64::from).map(|x| (x, 3.0 * x.powf(1.25)));
+        assert!((super::exponent(points) - 1.25).abs() < 1e-12);
     }
 }

@@ -9,7 +9,7 @@ use anyhow::{Context, Result, bail};
 use serde_json::Value;
 
 use crate::steps::{Outcome, Steps};
-use crate::{limits, process, table, tools, tree};
+use crate::{bench, data, limits, process, table, tools, tree};
 
 const HEADER: &[&str] = &[
     "file",
@@ -52,11 +52,15 @@ pub(crate) fn add_steps(steps: &mut Steps, names: &[String]) {
         return;
     }
     let mut rows = Vec::new();
+    let mut growth = None;
     for file in files {
         let name = file_name(&file);
         steps.step(format!("evaluator: {name}"), || {
             let judged = judge(&file)?;
             rows.push(row(&name, &judged));
+            if name == bench::LONG {
+                growth = Some(exponent(&file, &judged)?);
+            }
             let mut faults = judged.faults;
             faults.extend(limits::breaches(&name, &judged.summary));
             for fault in &faults {
@@ -71,6 +75,22 @@ pub(crate) fn add_steps(steps: &mut Steps, names: &[String]) {
     }
     println!();
     table::print(HEADER, &rows);
+    if let Some(exponent) = growth {
+        println!(
+            "\ngrowth over {}: ms ~ length^{exponent:.2}, each stroke timed once (see `cargo xtask bench`)",
+            bench::LONG
+        );
+    }
+}
+
+/// How the time for a stroke grows with its length.
+fn exponent(file: &Path, judged: &Judged) -> Result<f64> {
+    let strokes = data::load(file)?;
+    let timed = judged.rows.iter().filter_map(|row| {
+        let stroke = strokes.iter().find(|stroke| row["name"] == *stroke.name)?;
+        Some((data::polyline_length(stroke), row["ms"].as_f64()?))
+    });
+    Ok(bench::exponent(timed))
 }
 
 /// The stroke files, in order of name.
