@@ -158,11 +158,36 @@ pub fn displacement(heading: f64, kappa0: f64, sharpness: f64, s: f64) -> Vec2 {
     integrate::<1>(heading, kappa0, sharpness, s)[0]
 }
 
+/// Sines and cosines of two angles of at most 1.25 rad side by side; written to memory as [`panel`] does.
+#[inline(never)]
+fn sin_cos_pair(angles: [f64; 2], out: &mut [Lanes; 2]) {
+    let angles = Lanes(angles);
+    let squares = angles * angles;
+    *out = [angles * squares.polynomial::<10>(&SIN), squares.polynomial::<10>(&COS)];
+}
+
 /// Position and unit tangent at arc length `h` from a point with the given curvature, in the frame of that point: x along
-/// its tangent, y to its left.
-#[inline]
+/// its tangent, y to its left. Fast for stretches of little turning, which searches are made of.
 pub(crate) fn local_frame(kappa: f64, sharpness: f64, h: f64) -> (Vec2, Vec2) {
-    (displacement(0.0, kappa, sharpness, h), unit(h * (kappa + 0.5 * sharpness * h)))
+    let steepest = kappa.abs().max((kappa + sharpness * h).abs());
+    let heading = |s: f64| s * (kappa + 0.5 * sharpness * s);
+    let half = 0.5 * h;
+    if steepest * half.abs() > GENTLE {
+        return (displacement(0.0, kappa, sharpness, h), unit(heading(h)));
+    }
+    let (mut moment, mut sines) = ([[Lanes::ZERO; 2]; 1], [Lanes::ZERO; 2]);
+    panel::<1, 7, 6, 2>(
+        &NODES_8,
+        &WEIGHTS_8,
+        (kappa + sharpness * half) * half,
+        0.5 * sharpness * half * half,
+        &mut moment,
+    );
+    sin_cos_pair([heading(half), heading(h)], &mut sines);
+    let [Lanes([sin, sin_end]), Lanes([cos, cos_end])] = sines;
+    let [[re, im]] = moment;
+    let (re, im) = (re.sum(), im.sum());
+    (Vec2::new(cos * re - sin * im, sin * re + cos * im) * half, Vec2::new(cos_end, sin_end))
 }
 
 /// The moments `[M_0, M_1, M_2]` over [0, s] of `θ(u) = heading + kappa0 u + sharpness u²/2`.

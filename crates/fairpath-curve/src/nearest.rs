@@ -1,7 +1,7 @@
 //! The point of a curve nearest to a given point: a segment or spline and a point come in, arc lengths and distances go out.
 //!
 //! The squared distance `d²(s) / 2` has the derivatives `f = e·T`, `f' = 1 + kappa e·N`, `f'' = kappa' e·N − kappa² f`, with `e`
-//! from the given point to the curve. On a stretch that turns by at most half a radian to each side of its middle, `|f''|` is
+//! from the given point to the curve. On a stretch that turns by at most 0.8 rad to each side of its middle, `|f''|` is
 //! bounded by what is known in the middle, so every stretch is either proven to hold no nearest point, proven to
 //! be convex (then Newton's method cannot fail), or halved. That is an interval branch and bound with a proof at every
 //! leaf; the geometry of the several minima on a spiral is that of Bertolazzi and Frego, "Point-clothoid distance and
@@ -39,13 +39,16 @@ pub struct SplineNearest {
 }
 
 /// Stretches turn by at most this much to each side of their middle, radians, or they are halved before anything is proven.
-const HALF_TURN: f64 = 0.5;
+const HALF_TURN: f64 = 0.8;
 
 /// A segment is cut into at most this many pieces at first; beyond, halving goes on.
 const MAX_PIECES: f64 = 65_536.0;
 
 /// Bound on the work of one piece, in evaluations, reached only by points that are equally far from all of it.
 const MAX_STEPS: usize = 2048;
+
+/// A piece is halved at most this often in depth; stretches are then shorter than rounding.
+const MAX_DEPTH: usize = 60;
 
 /// Relative rounding error granted to distances.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
@@ -153,65 +156,89 @@ impl Piece {
     /// are left for the caller to look at: `(low, high)`.
     fn search(&self, target: Vec2, collector: &mut impl Collector) -> (bool, bool) {
         let mut ends = (false, false);
-        let mut stack = [(0.0, 0.0); 64];
-        let mut depth = 1;
-        stack[0] = (0.0, self.half);
+        let middle = self.derivatives(target, 0.0, Vec2::ZERO, Vec2::new(1.0, 0.0));
+        if self.examine(target, &middle, self.half, collector, &mut ends) {
+            self.halve(target, middle.f > 0.0, collector, &mut ends);
+        }
+        ends
+    }
+
+    /// The search in the halves of the piece; apart from [`Piece::search`] because most pieces need no halving.
+    #[inline(never)]
+    fn halve(&self, target: Vec2, low_first: bool, collector: &mut impl Collector, ends: &mut (bool, bool)) {
+        let mut stack = [(0.0, 0.0); MAX_DEPTH + 2];
+        let mut depth = 0;
+        let push = |depth: &mut usize, stack: &mut [(f64, f64)], center: f64, half: f64, low_first: bool| {
+            // The nearer half is taken first: its distance prunes the other.
+            let (a, b) = if low_first { (half, -half) } else { (-half, half) };
+            stack[*depth] = (center + a, half);
+            stack[*depth + 1] = (center + b, half);
+            *depth += 2;
+        };
+        push(&mut depth, &mut stack, 0.0, 0.5 * self.half, low_first);
         let mut steps = 0;
         while depth > 0 {
             depth -= 1;
             let (center, radius) = stack[depth];
             steps += 1;
-            let probe = if center == 0.0 {
-                self.derivatives(target, 0.0, Vec2::ZERO, Vec2::new(1.0, 0.0))
-            } else {
-                self.probe(target, center)
-            };
-            collector.offer(self, probe.h, probe.position, probe.distance2);
-            let distance = probe.distance2.sqrt();
-            let steepest = probe.kappa.abs() + self.sharpness.abs() * radius;
-            let turn = steepest * radius;
-            let (f, f1) = (probe.f.abs(), probe.f1.abs());
-            // Bound of |f''| on the stretch; f itself stays within |f| + |f'| r + bound r²/2, which closes the circle.
-            let bound = if turn <= HALF_TURN * (1.0 + 1e-9) {
-                (self.sharpness.abs() * (distance + radius) + steepest * steepest * (f + f1 * radius))
-                    / (1.0 - 0.5 * turn * turn)
-            } else {
-                f64::INFINITY
-            };
-            let near = (distance - radius).max(0.0);
-            let lowest =
-                (near * near).max(probe.distance2 - 2.0 * f * radius - (f1 + bound * radius) * radius * radius);
-            if lowest >= collector.bound() * (1.0 - ROUNDING) {
-                continue;
-            }
-            // Half a radius of slack: halving rounds.
-            let slack = self.half - 0.5 * radius;
-            let (low_end, high_end) = (center - radius <= -slack, center + radius >= slack);
-            let reach = f1 * radius + 0.5 * bound * radius * radius;
-            let rounding = ROUNDING * (distance + self.mid + self.half);
-            if f + reach <= rounding || steps >= MAX_STEPS || depth + 2 > stack.len() {
-                collector.minimum(self, probe.h, probe.position, probe.distance2, Some(radius));
-                continue;
-            }
-            if f > reach + rounding {
-                ends.0 |= low_end && probe.f > 0.0;
-                ends.1 |= high_end && probe.f < 0.0;
-            } else if probe.f1 > bound * radius {
-                let found = self.newton(target, probe, center - radius, center + radius);
-                collector.minimum(self, found.h, found.position, found.distance2, None);
-            } else if probe.f1 < -bound * radius {
-                ends.0 |= low_end;
-                ends.1 |= high_end;
-            } else {
-                // The nearer half is taken first: its distance prunes the other.
-                let half = 0.5 * radius;
-                let (a, b) = if probe.f > 0.0 { (half, -half) } else { (-half, half) };
-                stack[depth] = (center + a, half);
-                stack[depth + 1] = (center + b, half);
-                depth += 2;
+            let probe = self.probe(target, center);
+            if self.examine(target, &probe, radius, collector, ends) {
+                if steps >= MAX_STEPS || depth >= MAX_DEPTH {
+                    collector.minimum(self, probe.h, probe.position, probe.distance2, Some(radius));
+                } else {
+                    push(&mut depth, &mut stack, center, 0.5 * radius, probe.f > 0.0);
+                }
             }
         }
-        ends
+    }
+
+    /// Looks at the stretch of `radius` around a probe: whether it has to be halved.
+    #[inline(always)]
+    fn examine(
+        &self,
+        target: Vec2,
+        probe: &Probe,
+        radius: f64,
+        collector: &mut impl Collector,
+        ends: &mut (bool, bool),
+    ) -> bool {
+        collector.offer(self, probe.h, probe.position, probe.distance2);
+        let distance = probe.distance2.sqrt();
+        let steepest = probe.kappa.abs() + self.sharpness.abs() * radius;
+        let turn = steepest * radius;
+        let (f, f1) = (probe.f.abs(), probe.f1.abs());
+        // Bound of |f''| on the stretch; f itself stays within |f| + |f'| r + bound r²/2, which closes the circle.
+        let bound = if turn <= HALF_TURN * (1.0 + 1e-9) {
+            (self.sharpness.abs() * (distance + radius) + steepest * steepest * (f + f1 * radius))
+                / (1.0 - 0.5 * turn * turn)
+        } else {
+            f64::INFINITY
+        };
+        let near = (distance - radius).max(0.0);
+        let lowest = (near * near).max(probe.distance2 - 2.0 * f * radius - (f1 + bound * radius) * radius * radius);
+        if lowest >= collector.bound() * (1.0 - ROUNDING) {
+            return false;
+        }
+        // Half a radius of slack: halving rounds.
+        let slack = self.half - 0.5 * radius;
+        let (low_end, high_end) = (probe.h - radius <= -slack, probe.h + radius >= slack);
+        let reach = f1 * radius + 0.5 * bound * radius * radius;
+        let rounding = ROUNDING * (distance + self.mid + self.half);
+        if f + reach <= rounding {
+            collector.minimum(self, probe.h, probe.position, probe.distance2, Some(radius));
+        } else if f > reach + rounding {
+            ends.0 |= low_end && probe.f > 0.0;
+            ends.1 |= high_end && probe.f < 0.0;
+        } else if probe.f1 > bound * radius {
+            let found = self.newton(target, *probe, probe.h - radius, probe.h + radius);
+            collector.minimum(self, found.h, found.position, found.distance2, None);
+        } else if probe.f1 < -bound * radius {
+            ends.0 |= low_end;
+            ends.1 |= high_end;
+        } else {
+            return true;
+        }
+        false
     }
 
     /// The minimum on [low, high], where `f` is proven to increase: its root, or the end nearer to it.
@@ -219,7 +246,7 @@ impl Piece {
     /// Halley's method inside a bracket, so each step triples the number of correct digits.
     fn newton(&self, target: Vec2, mut probe: Probe, low: f64, high: f64) -> Probe {
         let (mut a, mut b) = (low, high);
-        let close = 1e-6 * (high - low);
+        let close = 1e-5 * (high - low);
         for _ in 0..64 {
             if probe.f == 0.0 || (probe.f > 0.0 && probe.h <= low) || (probe.f < 0.0 && probe.h >= high) {
                 return probe;
@@ -242,7 +269,7 @@ impl Piece {
                 } else {
                     0.5 * (a + b)
                 };
-            } else if step.abs() <= close && (step * probe.kappa).abs() < 1e-6 {
+            } else if step.abs() <= close && (step * probe.kappa).abs() < 1e-5 {
                 // The next error is of the order of step³: Taylor's expansion finishes.
                 let normal = Vec2::new(-probe.tangent.y, probe.tangent.x);
                 let position = probe.position + probe.tangent * step + normal * (0.5 * probe.kappa * step * step);
