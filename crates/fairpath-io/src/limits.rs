@@ -6,7 +6,8 @@
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Limits {
-    /// Largest file, bytes; text strokes (CSV), which are read as a stream, may be longer. Default 512 MiB.
+    /// Largest file, bytes, and most bytes of SVG attributes where each use of an element counts anew; text strokes (CSV), which are
+    /// read as a stream, may be longer. Default 512 MiB.
     pub max_bytes: u64,
     /// Longest line of a text or CSV file, bytes. Default 1 MiB.
     pub max_line_bytes: u64,

@@ -1,7 +1,7 @@
 //! Strokes from files of any format, told apart by extension, else by content.
 
 use crate::error::{Error, Fault};
-use crate::input::{check_size, extension, first_byte, label, open, peek, read_all, text};
+use crate::input::{check_size, extension, first_byte, label, open, peek, read_all, strip_bom, text};
 use crate::limits::ReadOptions;
 use crate::stroke_file::StrokeFile;
 use crate::{strokes_inkml, strokes_json, strokes_svg, strokes_text};
@@ -52,8 +52,11 @@ impl StrokeFormat {
                     _ => Some(Self::Svg),
                 }
             }
-            b'0'..=b'9' | b'+' | b'-' | b'.' | b'#' | b'"' | b'x' | b'X' => Some(Self::Text),
-            _ => None,
+            b'0'..=b'9' | b'+' | b'-' | b'.' | b'#' | b'"' => Some(Self::Text),
+            _ => {
+                let text = String::from_utf8_lossy(strip_bom(&head[..head.len().min(4096)]));
+                strokes_text::begins_with_header(&text).then_some(Self::Text)
+            }
         }
     }
 }

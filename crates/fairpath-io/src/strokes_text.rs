@@ -1,4 +1,8 @@
 //! Strokes as text: `x y [t [pressure]]` a line, a blank line between strokes; read as a stream.
+//!
+//! A first line of words is a header. If it has columns `x` and `y`, columns go by their names: `t`, `time`, `t_s`, `time_s` in seconds,
+//! `t_ms`, `time_ms` in milliseconds, `p`, `pressure` or `force`; others are left out with a warning. Any other header changes nothing.
+//! Comments `# name: …`, `# unit: mm`, `# y: up` and `# dpi: 96` carry what the points cannot.
 
 use crate::error::{Error, Fault};
 use crate::input::{Budget, Lines};
@@ -7,7 +11,7 @@ use crate::stroke_file::StrokeFile;
 use crate::strokes_json::check_writable;
 use crate::unit::{Unit, YAxis};
 use fairpath_curve::Point;
-use fairpath_fit::Stroke;
+use fairpath_fit::{Stroke, Warning};
 use std::fmt::Write;
 use std::io::Read;
 
@@ -15,7 +19,7 @@ use std::io::Read;
 const EXPECTED: &str = "expected `x y [t [pressure]]` separated by blanks, tabs, commas or semicolons, \
                         a blank line before the next stroke, or a comment after #";
 
-/// Comments that carry what the points cannot: `# name: …`, `# unit: mm`, `# y: up`, `# dpi: 96`.
+/// Begins the comment that names the next stroke.
 const NAME: &str = "name:";
 
 pub(crate) fn read(reader: impl Read, options: &ReadOptions) -> Result<StrokeFile, Fault> {
@@ -24,8 +28,8 @@ pub(crate) fn read(reader: impl Read, options: &ReadOptions) -> Result<StrokeFil
     let mut items = Budget::items(&options.limits);
     let mut file = StrokeFile::default();
     let mut current = Stroke::new("", Vec::new());
-    let mut columns = 0;
-    let mut header_allowed = true;
+    let mut count_of_stroke = 0;
+    let mut columns: Option<Columns> = None;
     let mut name: Option<String> = None;
     while let Some((number, line)) = lines.next_line()? {
         let place = || format!("line {number}");
@@ -41,30 +45,37 @@ pub(crate) fn read(reader: impl Read, options: &ReadOptions) -> Result<StrokeFil
             finish(&mut file, &mut current, &mut name);
             continue;
         }
-        let mut fields = [0.0; 4];
-        let count = match numbers(line, &mut fields) {
-            Ok(count) => count,
-            Err(_) if std::mem::take(&mut header_allowed) && looks_like_header(line) => continue,
-            Err(problem) => return Err(Fault::new(place(), format_args!("{problem}; {EXPECTED}"))),
+        let columns = match &columns {
+            Some(columns) => columns,
+            None => {
+                let header = looks_like_header(line);
+                let found = columns.insert(if header { Columns::named(line) } else { Columns::in_order() });
+                file.warnings.extend(found.warning());
+                if header {
+                    continue;
+                }
+                found
+            }
         };
-        header_allowed = false;
+        let (row, count) =
+            columns.read(line).map_err(|problem| Fault::new(place(), format_args!("{problem}; {EXPECTED}")))?;
         if current.points.is_empty() {
             items.spend(place)?;
-            columns = count;
-        } else if count != columns {
+            count_of_stroke = count;
+        } else if count != count_of_stroke {
             let problem = format!(
-                "{count} numbers where the stroke's first line has {columns}; the lines of one stroke have one length"
+                "{count} numbers where the stroke's first line has {count_of_stroke}; the lines of one stroke have one length"
             );
             return Err(Fault::new(place(), problem));
         }
         points.spend(place)?;
-        current.points.push(Point::new(fields[0], fields[1]));
-        if count > 2 {
-            current.times_s.push(fields[2]);
-        }
-        if count > 3 {
-            current.pressures.push(fields[3]);
-        }
+        let [x, y, t, pressure] = row;
+        let (Some(x), Some(y)) = (x, y) else {
+            return Err(Fault::new(place(), format_args!("there is no x or no y; {EXPECTED}")));
+        };
+        current.points.push(Point::new(x, y));
+        current.times_s.extend(t);
+        current.pressures.extend(pressure);
     }
     finish(&mut file, &mut current, &mut name);
     if file.strokes.is_empty() {
@@ -100,28 +111,86 @@ fn read_comment(comment: &str, file: &mut StrokeFile) -> Option<String> {
     None
 }
 
-/// The numbers of a line, two to four.
-fn numbers(line: &str, out: &mut [f64; 4]) -> Result<usize, String> {
-    let mut count = 0;
-    for field in fields(line) {
-        let value: f64 = match field.parse() {
-            Ok(value) => value,
-            Err(_) if field.is_empty() => return Err(format!("column {} is empty", count + 1)),
-            Err(_) => return Err(format!("column {} is {:?}, not a number", count + 1, shortened(field))),
+/// What the columns mean.
+struct Columns {
+    /// For each column of the header which of x, y, t and pressure it is, and the factor to our unit; nothing without a header.
+    roles: Option<Vec<Option<(usize, f64)>>>,
+    /// Columns that are none of them.
+    left_out: Vec<String>,
+}
+
+impl Columns {
+    /// Columns x, y, t and pressure in this order.
+    fn in_order() -> Self {
+        Self { roles: None, left_out: Vec::new() }
+    }
+
+    /// The columns of a header.
+    fn named(header: &str) -> Self {
+        let role = |word: &str| match word.to_ascii_lowercase().as_str() {
+            "x" => Some((0, 1.0)),
+            "y" => Some((1, 1.0)),
+            "t" | "time" | "t_s" | "time_s" => Some((2, 1.0)),
+            "t_ms" | "time_ms" => Some((2, 1e-3)),
+            "p" | "pressure" | "force" => Some((3, 1.0)),
+            _ => None,
         };
-        if !value.is_finite() {
-            return Err(format!("column {} is {:?}, not a finite number", count + 1, shortened(field)));
+        let roles: Vec<_> = fields(header).map(role).collect();
+        if !has_position(header) {
+            return Self::in_order();
         }
-        if count == 4 {
-            return Err("there are more than four columns".into());
+        let left_out = fields(header).filter(|f| role(f).is_none()).take(20).map(shortened).collect();
+        Self { roles: Some(roles), left_out }
+    }
+
+    fn warning(&self) -> Option<Warning> {
+        let text = format!("columns left out: {}", self.left_out.join(", "));
+        (!self.left_out.is_empty()).then(|| Warning { code: "column-left-out".into(), text })
+    }
+
+    /// x, y, t and pressure of a line, and how many columns it has.
+    fn read(&self, line: &str) -> Result<([Option<f64>; 4], usize), String> {
+        let mut row = [None; 4];
+        let mut count = 0;
+        for field in fields(line) {
+            let role = match &self.roles {
+                None if count == 4 => return Err("there are more than four columns".into()),
+                None => Some((count, 1.0)),
+                Some(roles) => *roles
+                    .get(count)
+                    .ok_or_else(|| format!("there are more than the header's {} columns", roles.len()))?,
+            };
+            count += 1;
+            if let Some((role, factor)) = role {
+                row[role] = Some(factor * number(field, count)?);
+            }
         }
-        out[count] = value;
-        count += 1;
+        match &self.roles {
+            None if count < 2 => Err("there is one number only".into()),
+            Some(roles) if count < roles.len() => Err(format!("{count} columns where the header has {}", roles.len())),
+            _ => Ok((row, count)),
+        }
     }
-    if count < 2 {
-        return Err("there is one number only".into());
+}
+
+fn number(field: &str, column: usize) -> Result<f64, String> {
+    match field.parse::<f64>() {
+        Ok(value) if value.is_finite() => Ok(value),
+        Ok(_) => Err(format!("column {column} is {:?}, not a finite number", shortened(field))),
+        Err(_) if field.is_empty() => Err(format!("column {column} is empty")),
+        Err(_) => Err(format!("column {column} is {:?}, not a number", shortened(field))),
     }
-    Ok(count)
+}
+
+/// Whether a header has columns x and y.
+fn has_position(header: &str) -> bool {
+    ["x", "y"].iter().all(|name| fields(header).any(|f| f.eq_ignore_ascii_case(name)))
+}
+
+/// Whether a text begins with a header that has columns x and y.
+pub(crate) fn begins_with_header(text: &str) -> bool {
+    let line = text.lines().map(str::trim).find(|l| !l.is_empty()).unwrap_or_default();
+    looks_like_header(line) && has_position(line)
 }
 
 /// Splits at semicolons, else at commas, else at blanks; blanks around are trimmed.

@@ -132,13 +132,26 @@ fn text_carries_times_pressures_and_names() {
 }
 
 #[test]
+fn text_with_a_header_goes_by_the_names_of_its_columns() {
+    let file = good("time_ms,Pressure,tilt,Y,X\n500,0.25,left,2,1\n1500,0.75,right,4,3\n");
+    assert_eq!(points(&file.strokes[0]), [(1.0, 2.0), (3.0, 4.0)]);
+    assert_eq!(file.strokes[0].times_s, [0.5, 1.5]);
+    assert_eq!(file.strokes[0].pressures, [0.25, 0.75]);
+    assert_eq!(file.warnings[0].text, "columns left out: tilt");
+    let file = read("lon;lat\n1;2\n", Some(StrokeFormat::Text)).unwrap();
+    assert_eq!(points(&file.strokes[0]), [(1.0, 2.0)]);
+}
+
+#[test]
 fn text_that_is_no_point_is_refused_with_its_line() {
-    let cases: [(&[u8], &str); 12] = [
+    let cases: [(&[u8], &str); 14] = [
         (b"1 2\nnan 3\n", "line 2: column 1 is \"nan\", not a finite number"),
         (b"1 2\n3 inf\n", "line 2: column 2 is \"inf\""),
         (b"1 2\n3 1e400\n", "line 2: column 2"),
         (b"1 2\nhello world\n", "line 2: column 1 is \"hello\""),
         (b"x y\na b\n1 2\n", "line 2"),
+        (b"x,y,t\n1,2\n", "line 2: 2 columns where the header has 3"),
+        (b"x,y\n1,2,3\n", "line 2: there are more than the header's 2 columns"),
         (b"1 2\n3\n", "line 2: there is one number only"),
         (b"1 2\n3 4 5\n", "3 numbers where the stroke's first line has 2"),
         (b"1 2 3 4 5\n", "more than four"),
