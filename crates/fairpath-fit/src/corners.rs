@@ -108,7 +108,9 @@ fn strength(
     }
     let sides = (back.normal.energy + forth.normal.energy) / (back.normal.weight + forth.normal.weight);
     let whole = side(&mut (-left..=right));
-    let one = whole.normal.energy / whole.normal.weight;
+    // No arc follows a stroke that turns back on itself: it would have to be walked back and forth.
+    let points_apart = (b - a).hypot2().sqrt() / (left + right) as f64;
+    let one = if points_apart < 0.1 && whole.length < 0.5 * (left + right) as f64 { f64::MAX } else { whole.normal.energy / whole.normal.weight };
     let remaining = sides + options.corner_noise * options.corner_noise;
     (one - sides >= options.corner_score * remaining).then(|| jump / remaining)
 }

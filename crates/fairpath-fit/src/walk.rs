@@ -140,7 +140,8 @@ impl Walker {
             let narrowing = (1.0 - self.kappa * self.tangent.cross(v)).max(0.3);
             let mut ds = along / narrowing;
             let limit = 1.2 / (self.kappa.abs() + (self.sharpness * ds).abs() + 1e-9);
-            ds = ds.clamp(-limit, limit);
+            // Unlike clamp, this lets a NaN through instead of panicking; the caller sees it in the energy.
+            ds = if ds > limit { limit } else if ds < -limit { -limit } else { ds };
             self.advance(ds);
         }
         self.offset(point)

@@ -18,6 +18,8 @@ pub(crate) struct Piece {
     pub(crate) q: [f64; Q],
     /// Sign that the curvature must keep at start and end, or 0 where it is free (section 3.8).
     pub(crate) sign: [i8; 2],
+    /// Length that it may not exceed: a diverging step must not wind it up.
+    pub(crate) longest: f64,
 }
 
 impl Piece {

@@ -98,15 +98,7 @@ pub(crate) fn merge(chain: &mut Chain, effort: Effort) -> Option<Measured> {
         // An exact penalty must outweigh what a gap can gain.
         let price = 2.0 * plan.pull;
         let merit = 0.5 * now.energy + price * (misfit - SMALL_GAP).max(0.0);
-        if std::env::var("FPDBG").is_ok() && chain.closed {
-            eprintln!(
-                "round E={} merit={merit} price={price} misfit={misfit} rel={relative} gap={:?} first={:?} mult={:?}",
-                now.energy,
-                closure.gap(&chain.pieces),
-                plan.first,
-                plan.multipliers
-            );
-        }
+        if std::env::var("FPDBG").is_ok() { eprintln!("round E={} merit={merit} price={price} misfit={misfit} rel={relative} gap={:?} first={:?} mult={:?}", now.energy, closure.gap(&chain.pieces), plan.first, plan.multipliers); }
         let old = chain.pieces.clone();
         let mut step = 1.0;
         let mut gain = None;
@@ -163,19 +155,11 @@ fn join_exactly(chain: &mut Chain, closure: &Closure, held: &mut [Held]) -> Opti
         if gaps(chain) == 0.0 && closure.misfit(&chain.pieces) < 1e-10 {
             return Some(round > 0);
         }
-        let now = chain.measure();
-        if std::env::var("FPDBG").is_ok() && chain.closed {
-            eprintln!(
-                "close E={} gaps={} misfit={} gap={:?} held={:?}",
-                now.energy,
-                gaps(chain),
-                closure.misfit(&chain.pieces),
-                closure.gap(&chain.pieces),
-                held.iter()
-                    .map(|h| h.iter().map(|&x| if x { 'x' } else { '.' }).collect::<String>())
-                    .collect::<Vec<_>>()
-            );
+        let mut now = chain.measure();
+        for normal in &mut now.normals {
+            normal.gradient = [0.0; Q];
         }
+        if std::env::var("FPDBG").is_ok() { eprintln!("close E={} gaps={} misfit={} gap={:?} held={:?}", now.energy, gaps(chain), closure.misfit(&chain.pieces), closure.gap(&chain.pieces), held.iter().map(|h| h.iter().map(|&x| if x {'x'} else {'.'}).collect::<String>()).collect::<Vec<_>>()); }
         let plan = backward(chain, &now, JOINING * (now.energy + 1.0), closure, held)?;
         let old = chain.pieces.clone();
         let next = forward(chain, &old, &plan, 1.0, held);
@@ -286,7 +270,7 @@ fn roles(chain: &Chain, k: usize) -> [Role; Q] {
 /// Least and largest value of a control.
 fn bounds(piece: &Piece, after: Option<&Piece>, joined: bool, index: usize) -> (f64, f64) {
     match index {
-        LENGTH => (MIN_LENGTH, f64::INFINITY),
+        LENGTH => (MIN_LENGTH, piece.longest),
         KAPPA0 | KAPPA1 => {
             let mut range = (-MAX_CURVATURE, MAX_CURVATURE);
             let mut keep = |sign: i8| match sign {

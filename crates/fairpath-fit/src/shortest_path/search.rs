@@ -159,6 +159,7 @@ pub(crate) fn chain<'a>(
             kind: c.kind,
             q: [part.start.x, part.start.y, part.heading, part.kappa0, part.kappa1, part.length],
             sign: signs[k],
+            longest: 3.0 * part.length + 30.0,
         });
         if k + 1 < n && joins[k] == Continuity::G0 {
             corners.push(track.samples[end] - track.samples[nodes[0].first as usize]);
