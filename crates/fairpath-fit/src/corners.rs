@@ -16,8 +16,8 @@ const SPACING: f64 = 2.0;
 /// More points than this are not looked at: the spacing grows instead.
 const MOST_POINTS: f64 = 40_000.0;
 
-/// A neighbourhood whose two chords turn less than this is not looked at closely, radians.
-const PLAINLY_SMOOTH: f64 = 0.45;
+/// Share of the least corner angle that must show in the narrowest neighbourhood before a place is looked at closely.
+const NARROW_SHARE: f64 = 0.5;
 
 /// Arc lengths of the corners, increasing; the ends of an open stroke are not among them.
 pub(crate) fn corners(line: &Polyline, closed: bool, options: &FitOptions) -> Vec<f64> {
@@ -29,7 +29,17 @@ pub(crate) fn corners(line: &Polyline, closed: bool, options: &FitOptions) -> Ve
     let n = if closed { count } else { count + 1 };
     let mut found: Vec<Sighting> = Vec::new();
     let mut run: Vec<Datum> = Vec::new();
+    let narrow = (round(options.corner_windows()[3] / spacing) as isize).max(MIN_SIDE as isize);
     for i in 0..n {
+        // A corner turns within a few pixels what it turns at all.
+        let index = |j: isize| {
+            if closed { j.rem_euclid(n as isize) as usize } else { j.clamp(0, n as isize - 1) as usize }
+        };
+        let (a, p, b) = (points[index(i as isize - narrow)], points[i], points[index(i as isize + narrow)]);
+        let (into, out) = (p - a, b - p);
+        if turn_between(into, out) < NARROW_SHARE * options.corner_angle.to_radians() {
+            continue;
+        }
         for window in options.corner_windows() {
             let k = round(window / spacing) as usize;
             let (left, right) = if closed { (k, k) } else { (k.min(i), k.min(n - 1 - i)) };
@@ -60,6 +70,11 @@ pub(crate) fn corners(line: &Polyline, closed: bool, options: &FitOptions) -> Ve
     kept.into_iter().map(|i| spacing * i as f64).collect()
 }
 
+/// The angle between two chords, radians.
+fn turn_between(into: Vec2, out: Vec2) -> f64 {
+    trig::angle_of(Vec2::new(into.dot(out), into.cross(out))).abs()
+}
+
 /// A corner as it appears in one neighbourhood.
 struct Sighting {
     strength: f64,
@@ -88,10 +103,7 @@ fn strength(
 ) -> Option<f64> {
     let (a, p, b) = (at(-left), at(0), at(right));
     let (into, out) = (p - a, b - p);
-    let turn = trig::angle_of(Vec2::new(into.dot(out), into.cross(out))).abs();
-    if turn < PLAINLY_SMOOTH {
-        return None;
-    }
+    let turn = turn_between(into, out);
     let mut side = |range: &mut dyn Iterator<Item = isize>| {
         run.clear();
         run.extend(range.map(|j| Datum { point: at(j), s: j as f64, weight: 1.0 }));

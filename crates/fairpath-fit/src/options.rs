@@ -168,9 +168,11 @@ pub struct FitOptions {
     /// A join that is expected to move both primitives further than this is not considered (section 3.4).
     #[schemars(extend("unit" = "px"))]
     pub max_join_error: f64,
-    /// Most rounds of verifying the joins of the shortest path (section 3.5).
+    /// Most times that the shortest path is searched anew after its joins have been verified (section 3.5).
     #[schemars(extend("unit" = "1"))]
     pub validation_rounds: usize,
+    /// Whether the merged curve is improved by local changes that the same costs welcome (beyond the paper).
+    pub refine: bool,
 }
 
 impl Default for FitOptions {
@@ -218,7 +220,8 @@ impl FitOptions {
             transitions: Transitions::Covariance,
             transition_peak: 2.0,
             max_join_error: 10.0,
-            validation_rounds: 40,
+            validation_rounds: 3,
+            refine: true,
         };
         match preset {
             Preset::Default => default,

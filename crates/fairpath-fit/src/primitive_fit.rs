@@ -77,6 +77,33 @@ pub(crate) struct Walked {
     pub(crate) normal: Normal,
 }
 
+/// As [`walk`], of a line.
+pub(crate) fn walk_line(primitive: &Primitive, data: &[Datum], end_factor: f64) -> Walked {
+    let tangent = trig::unit(primitive.heading);
+    let first = tangent.dot(data[0].point - primitive.start);
+    let start = primitive.start + tangent * first;
+    let last = data.len() - 1;
+    let (mut w0, mut w1, mut w2, mut d0, mut d1, mut energy, mut max) = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0_f64);
+    let mut s = 0.0;
+    for (i, datum) in data.iter().enumerate() {
+        let v = datum.point - start;
+        s = tangent.dot(v);
+        let d = tangent.cross(v);
+        let w = if i == 0 || i == last { end_factor * datum.weight } else { datum.weight };
+        w0 += w;
+        w1 += w * s;
+        w2 += w * s * s;
+        d0 += w * d;
+        d1 += w * d * s;
+        energy += w * d * d;
+        max = max.max(d.abs());
+    }
+    let mut normal = Normal { energy, weight: w0, max, ..Normal::ZERO };
+    (normal.hessian[0][0], normal.hessian[1][0], normal.hessian[1][1]) = (w0, w1, w2);
+    (normal.gradient[0], normal.gradient[1]) = (d0, d1);
+    Walked { primitive: Primitive { start, ..*primitive }, length: s, normal }
+}
+
 /// Walks along `data`, the ends counting `end_factor` times their weight (equation 1), after moving the primitive's start to the
 /// foot of the first point.
 pub(crate) fn walk(primitive: &Primitive, data: &[Datum], end_factor: f64) -> Walked {

@@ -61,6 +61,9 @@ pub(crate) struct Walker {
     second: Vec2,
 }
 
+/// A foot is found when the point lies across the curve to within this, px.
+const NEAR_ENOUGH: f64 = 0.1;
+
 /// Sine and cosine of the small angles between data points: error below 1e-10 up to half a radian.
 #[inline]
 fn sin_cos_step(a: f64) -> (f64, f64) {
@@ -132,7 +135,8 @@ impl Walker {
         for round in 0..4 {
             let v = point - self.position;
             let along = self.tangent.dot(v);
-            if round > 0 && along.abs() < 1e-3 {
+            // What is left moves the distance by its square times half the curvature: nothing that a fit could see.
+            if round > 0 && along.abs() < NEAR_ENOUGH {
                 break;
             }
             // The derivative of `along` by arc length is −(1 − kappa d); near the centre of curvature it vanishes

@@ -2,7 +2,7 @@
 
 use crate::linear::{cholesky, solve};
 use crate::options::FitOptions;
-use crate::primitive_fit::{Normal, chord, circle_through, walk};
+use crate::primitive_fit::{Normal, Walked, chord, circle_through, walk, walk_line};
 use crate::track::{Shape, Track};
 use crate::walk::{Datum, Primitive, Walker};
 use fairpath_curve::{Kind, trig};
@@ -64,7 +64,8 @@ struct Family {
     unknowns: usize,
     /// Fewest sample intervals.
     fewest: usize,
-    warm: Option<Primitive>,
+    /// The fit of the run one sample shorter.
+    warm: Option<Walked>,
     misses: usize,
 }
 
@@ -88,9 +89,10 @@ pub(crate) fn candidates(track: &Track, options: &FitOptions) -> Vec<Candidate> 
         let stop = (first + 1..=end).find(|&j| track.corner[j]).unwrap_or(end).min(first + track.turn);
         for last in first + 1..=stop {
             let data = track.run(first, last);
+            let fresh = track.samples[last] - track.samples[last - 1];
             for family in &mut families {
                 if family.misses < PATIENCE && last - first >= family.fewest {
-                    extend(family, data, (first, last), track, options, &mut out);
+                    extend(family, data, fresh, (first, last), track, options, &mut out);
                 }
             }
             if families.iter().all(|f| f.misses >= PATIENCE) {
@@ -104,43 +106,68 @@ pub(crate) fn candidates(track: &Track, options: &FitOptions) -> Vec<Candidate> 
 /// A kind of primitive is given up after this many runs in sequence that it does not fit.
 const PATIENCE: usize = 2;
 
+/// A round of Gauss–Newton is taken while it promises to lower the energy by this share.
+const WORTH_A_STEP: f64 = 0.02;
+
+/// The normal equations of a fit with the data that follow its last one, which is the first of `data`.
+fn extended(shorter: &Walked, data: &[Datum], end_factor: f64) -> Normal {
+    let mut walker = Walker::new(&shorter.primitive);
+    let tangent = walker.tangent;
+    let mut normal = shorter.normal;
+    walker.advance(shorter.length);
+    for (i, datum) in data.iter().enumerate() {
+        let d = walker.project(datum.point);
+        // The former end is an end no more, and the new one is.
+        let factor = if i == 0 { 1.0 - end_factor } else if i + 1 == data.len() { end_factor } else { 1.0 };
+        normal.add(&walker.row(tangent), d, factor * datum.weight);
+    }
+    normal
+}
+
 /// Fits one kind to a run and keeps it if it is near enough.
 fn extend(
     family: &mut Family,
     data: &[Datum],
+    fresh: usize,
     span: (usize, usize),
     track: &Track,
     options: &FitOptions,
     out: &mut Vec<Candidate>,
 ) {
-    let guess = match (&family.warm, family.kind) {
-        (Some(p), _) => *p,
-        (None, Kind::Line) => chord(data),
-        (None, _) => circle_through(data),
+    let walk = if family.kind == Kind::Line { walk_line } else { walk };
+    let n = family.unknowns;
+    // From the fit of the shorter run one step over all data is nearly always enough.
+    let (guess, rounds) = match &family.warm {
+        Some(shorter) => {
+            let longer = extended(shorter, &data[data.len() - 1 - fresh..], options.end_factor);
+            (longer.step(n).map_or(shorter.primitive, |step| shorter.primitive.moved(&step)), 1)
+        }
+        None if family.kind == Kind::Line => (chord(data), 1),
+        None => (circle_through(data), 3),
     };
     let mut fit = walk(&guess, data, options.end_factor);
-    let rounds = if family.warm.is_some() { 2 } else { 4 };
-    for round in 0..rounds {
-        let Some(step) = fit.normal.step(family.unknowns) else { break };
+    for _ in 0..rounds {
+        let Some(step) = fit.normal.step(n) else { break };
+        // The step's own forecast of what it gains.
+        let gain: f64 = (0..n).map(|i| step[i] * fit.normal.gradient[i]).sum();
+        if gain < WORTH_A_STEP * fit.normal.energy + 1e-3 * fit.normal.weight {
+            break;
+        }
         let next = walk(&fit.primitive.moved(&step), data, options.end_factor);
         if !(next.normal.energy <= fit.normal.energy) {
             break;
         }
-        let settled = fit.normal.energy - next.normal.energy < 0.02 * next.normal.energy + 0.01 && round > 0;
         fit = next;
-        if settled {
-            break;
-        }
     }
     let extent = data[data.len() - 1].s - data[0].s;
     let sound = fit.normal.energy.is_finite() && fit.length > 0.25 * extent && fit.length < 1.5 * extent + 4.0;
     if !sound || fit.normal.max > options.max_error {
         family.misses += 1;
-        family.warm = sound.then_some(fit.primitive);
+        family.warm = sound.then_some(fit);
         return;
     }
     family.misses = 0;
-    family.warm = Some(fit.primitive);
+    family.warm = Some(fit);
     let free = make(family, &fit.primitive, fit.length, &fit.normal, span, track, options);
     let inflects = family.kind == Kind::Clothoid && free.has_inflection();
     out.push(free);
@@ -155,7 +182,7 @@ fn extend(
 /// each is found from the free fit's normal equations with the one condition added, and corrected once.
 fn constrained(
     family: &Family,
-    free: &crate::primitive_fit::Walked,
+    free: &Walked,
     data: &[Datum],
     span: (usize, usize),
     track: &Track,

@@ -52,6 +52,8 @@ pub(crate) struct PieceNormal {
     pub(crate) gradient: [f64; Q],
     /// `max |d|`.
     pub(crate) error: f64,
+    /// First datum that it was measured against, and one past the last; empty where no datum reached it.
+    pub(crate) span: (usize, usize),
 }
 
 /// The distances of all data to a chain.
@@ -63,7 +65,12 @@ pub(crate) struct Measured {
 }
 
 impl PieceNormal {
-    const ZERO: Self = Self { hessian: [[0.0; Q]; Q], gradient: [0.0; Q], error: 0.0 };
+    const ZERO: Self = Self { hessian: [[0.0; Q]; Q], gradient: [0.0; Q], error: 0.0, span: (usize::MAX, 0) };
+
+    fn reached(&mut self, datum: usize, d: f64) {
+        self.error = self.error.max(d);
+        self.span = (self.span.0.min(datum), self.span.1.max(datum + 1));
+    }
 
     #[inline]
     fn add(&mut self, row: &[f64; Q], d: f64, w: f64) {
@@ -118,7 +125,7 @@ impl Chain<'_> {
                 let (v, w) = (datum.point - walker.position, self.end_factor * datum.weight);
                 normals[k].add(&[1.0, 0.0, 0.0, 0.0, 0.0, 0.0], v.x, w);
                 normals[k].add(&[0.0, 1.0, 0.0, 0.0, 0.0, 0.0], v.y, w);
-                normals[k].error = normals[k].error.max(v.hypot2().sqrt());
+                normals[k].reached(i, self.end_error(v, walker.tangent, i));
                 energy += w * v.hypot2();
                 continue;
             }
@@ -136,7 +143,7 @@ impl Chain<'_> {
                     row[LENGTH] += n.dot(walker.tangent);
                     normals[k].add(&row, d, w);
                 }
-                normals[k].error = normals[k].error.max(v.hypot2().sqrt());
+                normals[k].reached(i, self.end_error(v, walker.tangent, i));
                 energy += w * v.hypot2();
                 continue;
             }
@@ -167,10 +174,18 @@ impl Chain<'_> {
                 row(&walker, Vec2::new(-walker.tangent.y, walker.tangent.x), q)
             };
             normals[k].add(&row, d, datum.weight);
-            normals[k].error = normals[k].error.max(d.abs());
+            normals[k].reached(i, d.abs());
             energy += datum.weight * d * d;
         }
         energy
+    }
+}
+
+impl Chain<'_> {
+    /// The distance of an end's datum: at a corner, where the curves meet a little off the drawn tip, only what lies across.
+    fn end_error(&self, v: Vec2, tangent: Vec2, datum: usize) -> f64 {
+        let is_end = datum == 0 || datum + 1 == self.data.len();
+        if is_end && !self.closed { v.hypot2().sqrt() } else { tangent.cross(v).abs() }
     }
 }
 

@@ -105,7 +105,7 @@ impl<'a> Graph<'a> {
             return f64::INFINITY;
         }
         let (cu, cv) = (&self.candidates[u.candidate as usize], &self.candidates[v.candidate as usize]);
-        let mismatch = if edge.level == Continuity::G0 && self.corner[u.last as usize] {
+        let mismatch = if self.at_corner(edge) {
             0.0
         } else {
             match estimate(cu, cv, edge.level, self.options) {
@@ -124,6 +124,11 @@ impl<'a> Graph<'a> {
     fn base(&self, edge: Edge) -> f64 {
         let sample = self.nodes[edge.from as usize].last as usize;
         self.levels(sample).find(|l| l.0 == edge.level).map_or(f64::INFINITY, |l| l.1)
+    }
+
+    /// Whether an edge joins at a corner.
+    pub(crate) fn at_corner(&self, edge: Edge) -> bool {
+        edge.level == Continuity::G0 && self.corner[self.nodes[edge.from as usize].last as usize]
     }
 
     /// Whether an edge has been verified.
@@ -294,11 +299,14 @@ impl Distances {
         (this.cost + best, onward)
     }
 
-    /// Brings all distances up to date after the edges from `from` got dearer.
-    pub(crate) fn repair(&mut self, graph: &mut Graph, from: impl IntoIterator<Item = u32>) {
+    /// Brings distances up to date after the edges from `from` got dearer, up to `reach` samples before each. What lies further
+    /// back keeps distances that are too short by nearly the same amount, so that its choices rarely change; a search ends with
+    /// distances computed anew.
+    pub(crate) fn repair(&mut self, graph: &mut Graph, from: impl IntoIterator<Item = u32>, reach: usize) {
         // Later starts first: what a node's distance depends on is then settled before it.
         let mut open: BTreeSet<(usize, u32)> =
             from.into_iter().map(|i| (self.position(&graph.nodes[i as usize]), i)).collect();
+        let sources: Vec<usize> = open.iter().map(|o| o.0).collect();
         while let Some((position, node)) = open.pop_last() {
             let (cost, onward) = self.best_onward(graph, node);
             let before = self.to_target[node as usize];

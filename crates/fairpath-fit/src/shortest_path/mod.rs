@@ -4,6 +4,7 @@ mod candidates;
 mod chain;
 mod graph;
 mod merge;
+mod refine;
 mod search;
 mod transition;
 
@@ -84,7 +85,10 @@ fn merge_path(graph: &Graph, path: &Path, track: &Track, options: &FitOptions) -
         joins.push(Continuity::G0);
     }
     let mut chain: Chain = search::chain(graph.candidates, &nodes, joins, track, closed, options);
-    merge(&mut chain, FINAL)?;
+    let measured = merge(&mut chain, FINAL)?;
+    if options.refine {
+        refine::refine(&mut chain, measured, options, FINAL)?;
+    }
     Some((chain.pieces.iter().map(chain::Piece::segment).collect(), chain.joins, closed))
 }
 

@@ -16,10 +16,10 @@ const VERIFY: Effort = Effort { rounds: 8, tolerance: 1e-2 };
 /// The shortest path through the graph whose joins have all been verified, and how many verifications it took.
 pub(crate) fn search(graph: &mut Graph, track: &Track, options: &FitOptions) -> Option<(Path, usize)> {
     let mut verifications = 0;
-    let open = verified(graph, Goal::End, track, options, &mut verifications);
     if track.shape != Shape::Ring {
-        return open.map(|p| (p, verifications));
+        return verified(graph, Goal::End, track, options, &mut verifications).map(|p| (p, verifications));
     }
+    let open = Distances::new(graph, Goal::End).path();
     // Once around from the node in the middle of what was found before, three times (section 3.5).
     let mut best: Option<Path> = None;
     let mut from = middle(graph, &open?, track);
@@ -55,35 +55,65 @@ fn verified(
 ) -> Option<Path> {
     let mut distances = Distances::new(graph, goal);
     let mut path = distances.path()?;
-    for _ in 0..options.validation_rounds {
-        let mut dearer: Vec<u32> = Vec::new();
-        if let Some(edge) = pinched(graph, &path) {
-            graph.forbid(edge);
-            dearer.push(edge.from);
-        }
-        for edge in path.edges().collect::<Vec<_>>() {
-            if graph.is_verified(edge) {
-                continue;
+    for round in 0..options.validation_rounds {
+        // Joins are verified with distances repaired nearby; when the path holds, all distances are computed anew, and it
+        // is done if the path still holds.
+        let mut changed = false;
+        for _ in 0..ROUNDS_NEARBY {
+            let dearer = reprice(graph, &path, track, options, verifications);
+            if dearer.is_empty() {
+                break;
             }
-            *verifications += 1;
-            let deviation = verify(graph, edge, track, options);
-            if graph.learn(edge, deviation) {
-                dearer.push(edge.from);
-            }
+            changed = true;
+            distances.repair(graph, dearer, REPAIR_REACH);
+            path = distances.path()?;
         }
-        if dearer.is_empty() {
+        if !changed && round > 0 {
             break;
         }
-        distances.repair(graph, dearer);
+        distances = Distances::new(graph, goal);
         path = distances.path()?;
     }
-    // What remains pinched after the last round cannot be merged: it is forbidden without further verification.
+    // What the last round left unverified is taken as estimated, but what cannot be merged at all is avoided.
     while let Some(edge) = pinched(graph, &path) {
         graph.forbid(edge);
-        distances.repair(graph, [edge.from]);
+        distances = Distances::new(graph, goal);
         path = distances.path()?;
     }
     Some(path)
+}
+
+/// Most rounds of verification between two searches of the whole.
+const ROUNDS_NEARBY: usize = 12;
+
+/// Samples before a join that got dearer, within which distances are repaired at once.
+const REPAIR_REACH: usize = 40;
+
+/// Verifies the joins of a path; the nodes whose onward joins got dearer.
+fn reprice(
+    graph: &mut Graph,
+    path: &Path,
+    track: &Track,
+    options: &FitOptions,
+    verifications: &mut usize,
+) -> Vec<u32> {
+    let mut dearer: Vec<u32> = Vec::new();
+    if let Some(edge) = pinched(graph, path) {
+        graph.forbid(edge);
+        dearer.push(edge.from);
+    }
+    for edge in path.edges() {
+        // Two curves that end at a corner meet near it whatever they are: there is nothing to enforce.
+        if graph.is_verified(edge) || graph.at_corner(edge) {
+            continue;
+        }
+        *verifications += 1;
+        let deviation = verify(graph, edge, track, options);
+        if graph.learn(edge, deviation) {
+            dearer.push(edge.from);
+        }
+    }
+    dearer
 }
 
 /// The dearer of two G2 joins with which lines on both sides would straighten a clothoid.

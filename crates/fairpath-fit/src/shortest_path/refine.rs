@@ -1,0 +1,331 @@
+//! Improving a merged chain by local changes whose effect is measured, not estimated.
+//!
+//! The path is chosen by estimates of what each join costs, two candidates at a time; the merged chain knows better. Here every
+//! change that the same costs would welcome (two pieces become one, a clothoid becomes an arc, an arc a line, a piece is split) is tried on
+//! the piece and its neighbours, merged anew, and kept if what it really costs is less. Beyond the paper.
+
+use super::candidates::penalty;
+use super::chain::{Chain, KAPPA0, KAPPA1, LENGTH, Measured, Piece, end};
+use super::merge::{Effort, merge};
+use super::transition::possible;
+use crate::options::FitOptions;
+use crate::primitive_fit::{refine as fit_freely, walk_line};
+use crate::walk::Primitive;
+use fairpath_curve::{Continuity, Kind, Vec2};
+use std::ops::Range;
+
+/// Effort of trying one change.
+const TRY: Effort = Effort { rounds: 8, tolerance: 3e-3 };
+
+/// Pieces on each side of a change that move with it.
+const NEIGHBOURS: usize = 2;
+
+/// What a change must gain, in units of cost: less would be noise.
+const WORTHWHILE: f64 = 0.5;
+
+/// Most passes over the chain.
+const PASSES: usize = 3;
+
+/// Improves the chain; gives its measurement.
+pub(crate) fn refine(chain: &mut Chain, measured: Measured, options: &FitOptions, last: Effort) -> Option<Measured> {
+    let mut measured = measured;
+    for _ in 0..PASSES {
+        let before = total(chain, &measured, options);
+        let backup = (chain.pieces.clone(), chain.joins.clone());
+        if !pass(chain, &mut measured, options) {
+            break;
+        }
+        match merge(chain, last) {
+            Some(m) if total(chain, &m, options) < before => measured = m,
+            _ => {
+                (chain.pieces, chain.joins) = backup;
+                return Some(chain.measure());
+            }
+        }
+    }
+    Some(measured)
+}
+
+/// The cost of a chain as section 3.4 counts it, on the chain as it is.
+fn total(chain: &Chain, measured: &Measured, options: &FitOptions) -> f64 {
+    let errors = measured.normals.iter().map(|n| n.error);
+    cost(&chain.pieces, errors, options)
+}
+
+fn cost(pieces: &[Piece], errors: impl Iterator<Item = f64>, options: &FitOptions) -> f64 {
+    let mut sum = 0.0;
+    let mut sign = 0.0;
+    for (piece, error) in pieces.iter().zip(errors) {
+        let kind = match piece.kind {
+            Kind::Line => options.line_cost,
+            Kind::Arc => options.arc_cost,
+            Kind::Clothoid => options.clothoid_cost,
+        };
+        let short = (options.short_length - piece.q[LENGTH]).max(0.0);
+        sum += kind.unwrap_or(f64::INFINITY) + penalty(error, options) + options.shortness_cost * short * short;
+        for kappa in [piece.q[KAPPA0], piece.q[KAPPA1]] {
+            if kappa.abs() > 1e-9 {
+                if sign * kappa < 0.0 {
+                    sum += options.inflection_cost;
+                }
+                sign = kappa.signum();
+            }
+        }
+    }
+    sum
+}
+
+/// Tries all changes once along the chain; whether any was made.
+fn pass(chain: &mut Chain, measured: &mut Measured, options: &FitOptions) -> bool {
+    let mut changed = false;
+    let mut k = 0;
+    while k < chain.pieces.len() {
+        if improve_at(chain, measured, k, options) {
+            changed = true;
+        } else {
+            k += 1;
+        }
+        if measured.normals.len() != chain.pieces.len() {
+            return changed;
+        }
+    }
+    changed
+}
+
+/// A change: the pieces in `range` become `with`, joined by `level`.
+struct Change {
+    range: Range<usize>,
+    with: Vec<Piece>,
+    level: Continuity,
+}
+
+fn improve_at(chain: &mut Chain, measured: &mut Measured, k: usize, options: &FitOptions) -> bool {
+    let mut best: Option<(f64, Trial)> = None;
+    for change in changes(chain, measured, k, options) {
+        if !fits(chain, &change) {
+            continue;
+        }
+        if let Some((gain, trial)) = tried(chain, measured, &change, options)
+            && gain > best.as_ref().map_or(WORTHWHILE, |b| b.0)
+        {
+            best = Some((gain, trial));
+        }
+    }
+    let Some((_, trial)) = best else { return false };
+    let Trial { window, pieces, joins, normals } = trial;
+    let inner = window.start..window.end - 1;
+    chain.pieces.splice(window.clone(), pieces);
+    chain.joins.splice(inner, joins);
+    measured.normals.splice(window, normals);
+    true
+}
+
+/// The changes at a piece that might pay, judged by free fits.
+fn changes(chain: &Chain, measured: &Measured, k: usize, options: &FitOptions) -> Vec<Change> {
+    let mut out = Vec::new();
+    let own = piece_cost(chain, measured, k, options);
+    let kinds = [
+        (Kind::Line, options.line_cost),
+        (Kind::Arc, options.arc_cost),
+        (Kind::Clothoid, options.clothoid_cost),
+    ];
+    // Two become one.
+    if k + 1 < chain.pieces.len() && chain.joins[k] != Continuity::G0 {
+        let both = own + piece_cost(chain, measured, k + 1, options);
+        let (a, b) = (&chain.pieces[k], &chain.pieces[k + 1]);
+        let data = span(measured, k..k + 2);
+        for (kind, price) in kinds {
+            if let (Some(price), Some(piece)) = (price, united(chain, a, b, kind, data.clone()))
+                && both - price - penalty(piece.1, options) > WORTHWHILE
+            {
+                out.push(Change { range: k..k + 2, with: vec![piece.0], level: Continuity::G2 });
+            }
+        }
+    }
+    // A simpler kind.
+    for (kind, price) in kinds {
+        let piece = &chain.pieces[k];
+        if simplicity(kind) < simplicity(piece.kind)
+            && let (Some(price), Some(simpler)) = (price, united(chain, piece, piece, kind, span(measured, k..k + 1)))
+            && own - price - penalty(simpler.1, options) > WORTHWHILE
+        {
+            out.push(Change { range: k..k + 1, with: vec![simpler.0], level: Continuity::G2 });
+        }
+    }
+    // One becomes two.
+    if let (Some(price), Some(_)) = (options.clothoid_cost, options.g2_cost)
+        && own > 2.0 * price + WORTHWHILE
+    {
+        let piece = &chain.pieces[k];
+        let half = 0.5 * piece.q[LENGTH];
+        let middle = 0.5 * (piece.q[KAPPA0] + piece.q[KAPPA1]);
+        let mut first = Piece { kind: Kind::Clothoid, sign: [piece.sign[0], 0], ..*piece };
+        (first.q[KAPPA1], first.q[LENGTH]) = (middle, half);
+        let at = end(&first.q);
+        let mut second = Piece { kind: Kind::Clothoid, sign: [0, piece.sign[1]], ..*piece };
+        second.q[..4].copy_from_slice(&at);
+        (second.q[KAPPA1], second.q[LENGTH]) = (piece.q[KAPPA1], half);
+        if half > 2.0 {
+            out.push(Change { range: k..k + 1, with: vec![first, second], level: Continuity::G2 });
+        }
+    }
+    out
+}
+
+fn simplicity(kind: Kind) -> u8 {
+    match kind {
+        Kind::Line => 0,
+        Kind::Arc => 1,
+        Kind::Clothoid => 2,
+    }
+}
+
+fn piece_cost(chain: &Chain, measured: &Measured, k: usize, options: &FitOptions) -> f64 {
+    cost(&chain.pieces[k..=k], [measured.normals[k].error].into_iter(), options)
+}
+
+/// The data that pieces were measured against.
+fn span(measured: &Measured, pieces: Range<usize>) -> Range<usize> {
+    let (mut from, mut to) = (usize::MAX, 0);
+    for n in &measured.normals[pieces] {
+        from = from.min(n.span.0);
+        to = to.max(n.span.1);
+    }
+    from..to
+}
+
+/// One piece in place of a run from `a` to `b`, freely fitted to the run's data, and its error.
+fn united(chain: &Chain, a: &Piece, b: &Piece, kind: Kind, data: Range<usize>) -> Option<(Piece, f64)> {
+    let data = chain.data.get(data)?;
+    if data.len() < 3 {
+        return None;
+    }
+    let far = end(&b.q);
+    let distance = Vec2::new(far[0] - a.q[0], far[1] - a.q[1]);
+    let length = if a == b { a.q[LENGTH] } else { a.q[LENGTH] + b.q[LENGTH] };
+    let (heading, kappa) = match kind {
+        Kind::Line => (fairpath_curve::trig::angle_of(distance), 0.0),
+        Kind::Arc => (a.q[2], (far[2] - a.q[2]) / length),
+        Kind::Clothoid => (a.q[2], a.q[KAPPA0]),
+    };
+    let sharpness = if kind == Kind::Clothoid { (b.q[KAPPA1] - a.q[KAPPA0]) / length } else { 0.0 };
+    let guess = Primitive { start: Vec2::new(a.q[0], a.q[1]), heading, kappa, sharpness };
+    let fit = match kind {
+        Kind::Line => {
+            let first = walk_line(&guess, data, 1.0);
+            let step = first.normal.step(2)?;
+            walk_line(&first.primitive.moved(&step), data, 1.0)
+        }
+        Kind::Arc => fit_freely(&guess, data, 3, 3, 1.0),
+        Kind::Clothoid => fit_freely(&guess, data, 4, 3, 1.0),
+    };
+    let p = fit.primitive;
+    if !(fit.normal.energy.is_finite() && fit.length > 0.4 * length) {
+        return None;
+    }
+    let sign = if kind == Kind::Clothoid && a.sign[0] == b.sign[1] { [a.sign[0], b.sign[1]] } else { [0, 0] };
+    let kappa1 = if kind == Kind::Clothoid { p.kappa + p.sharpness * fit.length } else { p.kappa };
+    let piece = Piece {
+        kind,
+        q: [p.start.x, p.start.y, p.heading, p.kappa, kappa1, fit.length],
+        sign,
+        longest: 3.0 * fit.length + 30.0,
+    };
+    Some((piece, fit.normal.max))
+}
+
+/// Whether a change leaves a chain whose joins can all hold.
+fn fits(chain: &Chain, change: &Change) -> bool {
+    let n = chain.pieces.len();
+    let at = |i: isize| -> Option<(Kind, Continuity)> {
+        // Kind of a neighbour and the level of the join towards the change.
+        let (piece, join) = if i < 0 {
+            let k = change.range.start as isize + i;
+            if k < 0 && !chain.closed { return None }
+            (k.rem_euclid(n as isize) as usize, k.rem_euclid(n as isize) as usize)
+        } else {
+            let k = change.range.end as isize + i;
+            if k >= n as isize && !chain.closed { return None }
+            ((k % n as isize) as usize, ((k - 1) % n as isize) as usize)
+        };
+        Some((chain.pieces[piece].kind, chain.joins[join]))
+    };
+    if n <= change.range.len() + 1 && chain.closed {
+        return false;
+    }
+    let mut kinds: Vec<(Kind, Continuity)> = Vec::new();
+    let before: Vec<_> = [-2, -1].into_iter().map(at).collect();
+    kinds.extend(before.iter().flatten());
+    for (i, p) in change.with.iter().enumerate() {
+        let level = if i + 1 < change.with.len() {
+            change.level
+        } else {
+            at(0).map_or(Continuity::G0, |a| a.1)
+        };
+        kinds.push((p.kind, level));
+    }
+    if let Some((kind, _)) = at(0) {
+        kinds.push((kind, at(1).map_or(Continuity::G0, |a| a.1)));
+    }
+    if let Some((kind, _)) = at(1) {
+        kinds.push((kind, Continuity::G0));
+    }
+    kinds.windows(2).all(|w| possible(w[0].0, w[1].0, w[0].1))
+        && kinds.windows(3).all(|w| {
+            !(w[0].0 == Kind::Line
+                && w[1].0 == Kind::Clothoid
+                && w[2].0 == Kind::Line
+                && w[0].1 >= Continuity::G2
+                && w[1].1 >= Continuity::G2)
+        })
+}
+
+/// A change with its neighbours after merging them.
+struct Trial {
+    window: Range<usize>,
+    pieces: Vec<Piece>,
+    joins: Vec<Continuity>,
+    normals: Vec<super::chain::PieceNormal>,
+}
+
+/// Merges a change with its neighbours; what it gains, if it can be merged.
+fn tried(chain: &Chain, measured: &Measured, change: &Change, options: &FitOptions) -> Option<(f64, Trial)> {
+    // Neighbours up to the next corner.
+    let mut from = change.range.start;
+    while from > 0 && change.range.start - from < NEIGHBOURS && chain.joins[from - 1] != Continuity::G0 {
+        from -= 1;
+    }
+    let mut to = change.range.end;
+    while to < chain.pieces.len() && to - change.range.end < NEIGHBOURS && chain.joins[to - 1] != Continuity::G0 {
+        to += 1;
+    }
+    let window = from..to;
+    let data = span(measured, window.clone());
+    let mut pieces = chain.pieces[from..change.range.start].to_vec();
+    pieces.extend_from_slice(&change.with);
+    pieces.extend_from_slice(&chain.pieces[change.range.end..to]);
+    let mut joins = chain.joins[from..change.range.start].to_vec();
+    joins.extend(std::iter::repeat_n(change.level, change.with.len() - 1));
+    joins.extend_from_slice(&chain.joins[change.range.end - 1..to - 1]);
+    let mut part = Chain {
+        pieces,
+        joins,
+        data: chain.data.get(data.clone())?,
+        corners: Vec::new(),
+        closed: false,
+        end_factor: chain.end_factor,
+    };
+    if part.data.len() < 3 {
+        return None;
+    }
+    let errors = measured.normals[window.clone()].iter().map(|n| n.error);
+    let before = cost(&chain.pieces[window.clone()], errors, options);
+    let mut result = merge(&mut part, TRY)?;
+    let gain = before - total(&part, &result, options);
+    for normal in &mut result.normals {
+        if normal.span.0 < normal.span.1 {
+            normal.span = (normal.span.0 + data.start, normal.span.1 + data.start);
+        }
+    }
+    Some((gain, Trial { window, pieces: part.pieces, joins: part.joins, normals: result.normals }))
+}
