@@ -32,6 +32,9 @@ const HEADER: &[&str] = &[
 /// A file that takes longer than this to fit is taken for one that never ends. Every one of them should take seconds.
 const LIMIT: Duration = Duration::from_secs(240);
 
+/// So many strokes that are too far off are named.
+const WORST: usize = 8;
+
 /// The evaluator's part of the test command alone, for files whose names begin with one of `names`, or for all.
 pub(crate) fn run(names: &[String]) -> Result<()> {
     process::run(&mut process::cargo(&["build", "--release", "--package", "fairpath"]))?;
@@ -128,6 +131,10 @@ fn judge(strokes: &Path) -> Result<Judged> {
     if !matches!(ran.code, Some(0 | 1)) {
         bail!("{} ended with {:?}:\n{}", process::shown(&fit), ran.code, ran.text);
     }
+    if ran.text.contains("panicked") {
+        println!("{}", ran.text);
+        faults.push("the fitter panicked".into());
+    }
     for failure in read_json(&spline)?["failures"].as_array().into_iter().flatten() {
         if failure["code"] != limits::ALLOWED_REFUSAL {
             faults.push(format!("refused: {failure}"));
@@ -152,7 +159,21 @@ fn judge(strokes: &Path) -> Result<Judged> {
             faults.push(format!("{}: {}", row["name"].as_str().unwrap_or("?"), fault.as_str().unwrap_or("?")));
         }
     }
+    print_worst(&rows);
     Ok(Judged { summary: figures["summary"].clone(), rows, faults })
+}
+
+/// Names the strokes that are furthest off, where any is too far: it is them that one wants to see.
+fn print_worst(rows: &[Value]) {
+    for figure in ["dev_max", "rev_max"] {
+        let Some((_, most)) = limits::EVERY_FILE.iter().find(|(name, _)| *name == figure) else { continue };
+        let value = |row: &&Value| row[figure].as_f64().unwrap_or(f64::INFINITY);
+        let mut worst: Vec<&Value> = rows.iter().filter(|row| value(row) > *most).collect();
+        worst.sort_by(|a, b| value(b).total_cmp(&value(a)));
+        for row in worst.iter().take(WORST) {
+            println!("  {figure} {:.1}: {}", value(row), row["name"].as_str().unwrap_or("?"));
+        }
+    }
 }
 
 fn read_json(path: &Path) -> Result<Value> {
