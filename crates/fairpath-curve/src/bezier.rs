@@ -59,6 +59,10 @@ impl LocalPiece {
             let step = e.dot(t) / (1.0 - curvature * across).max(0.1);
             s = (s + step).clamp(0.0, self.length);
             e = q - self.point(s);
+            // The offset is stationary at the foot: an error of the foot enters it by its square.
+            if step.abs() < 1e-3 * self.length {
+                break;
+            }
         }
         unit(self.heading(s)).cross(e)
     }
@@ -110,7 +114,7 @@ fn fit(piece: &LocalPiece) -> (f64, CubicBez) {
         let (da, db) = ((jtr[0] * d1 - jtr[1] * jtj[1]) / det, (jtr[1] * d0 - jtr[0] * jtj[1]) / det);
         a = (a - da).clamp(0.1, 1.0);
         b = (b - db).clamp(0.1, 1.0);
-        if da.abs() + db.abs() < 1e-9 {
+        if da.abs() + db.abs() < 1e-7 {
             break;
         }
     }

@@ -354,18 +354,26 @@ fn nearer_than(segment: &Segment, target: Point, bound: f64) -> Option<Nearest> 
         answer = Some(Nearest { s: 0.0, point: segment.start, distance: start2.sqrt() });
     }
     let count = Piece::count(segment);
-    // Many pieces: first a look at all their middles, so that the bound is good before any is searched.
-    if count > 4 {
-        for piece in Piece::all(segment) {
-            best.offer(&piece, 0.0, Vec2::ZERO, (piece.point - target).hypot2());
-        }
-    }
-    for (i, piece) in Piece::all(segment).enumerate() {
+    let look = |i: usize, piece: &Piece, best: &mut Best| {
         let local = piece.to_local(target);
-        let (_, high) = piece.search(local, &mut best);
+        let (_, high) = piece.search(local, best);
         if high && i + 1 == count {
             let (position, _) = local_frame(piece.kappa, piece.sharpness, piece.half);
-            best.offer(&piece, piece.half, position, (position - local).hypot2());
+            best.offer(piece, piece.half, position, (position - local).hypot2());
+        }
+    };
+    if count > 4 {
+        // Many pieces: first a look at all their middles, so that the bound is good before any is searched.
+        let pieces: Vec<Piece> = Piece::all(segment).collect();
+        for piece in &pieces {
+            best.offer(piece, 0.0, Vec2::ZERO, (piece.point - target).hypot2());
+        }
+        for (i, piece) in pieces.iter().enumerate() {
+            look(i, piece, &mut best);
+        }
+    } else {
+        for (i, piece) in Piece::all(segment).enumerate() {
+            look(i, &piece, &mut best);
         }
     }
     best.answer(target, segment.length).or(answer)
