@@ -6,7 +6,7 @@ use crate::polyline::Polyline;
 use fairpath_curve::Vec2;
 
 /// Closed strokes have ends nearer than this share of their length: a small stroke is not closed because it is small.
-const GAP_SHARE: f64 = 0.12;
+const GAP_SHARE: f64 = 0.08;
 
 /// The narrow side of a closed stroke is at least this share of its wide side: a line traced there and back is not closed.
 const NARROWEST: f64 = 0.08;
@@ -50,6 +50,12 @@ pub(crate) fn close(points: &[Vec2], options: &FitOptions) -> Option<Closed> {
         }
     }
     let (i, j) = ends;
+    // What is cut off must lie along what stays: a tail that leads away is part of the drawing.
+    let far = STRAY_PX.min(STRAY_SHARE * length);
+    let strays = |p: &Vec2| points[i..=j].windows(2).all(|e| distance_to_edge(*p, e[0], e[1]) > far);
+    if options.closed == Closing::Auto && (points[..i].iter().any(strays) || points[j + 1..].iter().any(strays)) {
+        return None;
+    }
     let turn = Polyline::new(points[i..=j].to_vec());
     let total = turn.length();
     // The gap that remains is spread over the whole stroke, but only its part across the direction of travel: a gap along it
@@ -66,6 +72,16 @@ pub(crate) fn close(points: &[Vec2], options: &FitOptions) -> Option<Closed> {
         moved.pop();
     }
     Some(Closed { points: moved, trimmed: i + n - 1 - j })
+}
+
+/// Points that are cut off lie at most this far from what stays, px, and at most this share of the stroke's length.
+const STRAY_PX: f64 = 8.0;
+const STRAY_SHARE: f64 = 0.03;
+
+fn distance_to_edge(p: Vec2, a: Vec2, b: Vec2) -> f64 {
+    let v = b - a;
+    let u = if v.hypot2() > 0.0 { ((p - a).dot(v) / v.hypot2()).clamp(0.0, 1.0) } else { 0.0 };
+    distance(p, a + v * u)
 }
 
 /// Price of cutting off one pixel of stroke, in pixels of remaining gap.

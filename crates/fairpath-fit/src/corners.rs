@@ -6,7 +6,7 @@
 
 use crate::options::FitOptions;
 use crate::polyline::Polyline;
-use crate::primitive_fit::{chord, circle_through, refine};
+use crate::primitive_fit::{chord, circle_through, refine, walk_line};
 use crate::walk::Datum;
 use fairpath_curve::{Vec2, trig};
 
@@ -104,11 +104,17 @@ fn strength(
     let (a, p, b) = (at(-left), at(0), at(right));
     let (into, out) = (p - a, b - p);
     let turn = turn_between(into, out);
+    let floor = options.corner_noise * options.corner_noise;
     let mut side = |range: &mut dyn Iterator<Item = isize>| {
         run.clear();
         run.extend(range.map(|j| Datum { point: at(j), s: j as f64, weight: 1.0 }));
+        let line = walk_line(&chord(run), run, 1.0);
+        let line = line.normal.step(2).map_or(line, |step| walk_line(&line.primitive.moved(&step), run, 1.0));
+        // What a line describes to within the tremor needs no arc.
+        if line.normal.energy < 0.5 * floor * line.normal.weight {
+            return line;
+        }
         let fit = refine(&circle_through(run), run, 3, 2, 1.0);
-        let line = refine(&chord(run), run, 2, 1, 1.0);
         if fit.normal.energy.is_finite() && fit.normal.energy <= line.normal.energy { fit } else { line }
     };
     let back = side(&mut (1..=left).map(|j| -j));
@@ -123,6 +129,6 @@ fn strength(
     // No arc follows a stroke that turns back on itself: it would have to be walked back and forth.
     let points_apart = (b - a).hypot2().sqrt() / (left + right) as f64;
     let one = if points_apart < 0.1 && whole.length < 0.5 * (left + right) as f64 { f64::MAX } else { whole.normal.energy / whole.normal.weight };
-    let remaining = sides + options.corner_noise * options.corner_noise;
+    let remaining = sides + floor;
     (one - sides >= options.corner_score * remaining).then(|| jump / remaining)
 }

@@ -63,6 +63,17 @@ pub enum Transitions {
     Paper,
 }
 
+/// What stands for the deviation of a primitive from its data in costs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Deviation {
+    /// Twice the root mean square distance: for a smooth misfit about the largest, but hardly moved by tremor.
+    #[default]
+    Rms,
+    /// The largest distance (equation 2).
+    Max,
+}
+
 /// Options of the shortest-path method (Baran, Lehtinen and Popović 2010). Sections and equations are the paper's.
 ///
 /// Lengths in px are multiplied by `pixel_size`; costs are compared with each other only. A cost of `null` forbids.
@@ -142,6 +153,8 @@ pub struct FitOptions {
     /// Cost of deviation, times the square of what exceeds `free_error`: w_E of section 3.4.
     #[schemars(extend("unit" = "cost/px²"))]
     pub error_cost: f64,
+    /// What stands for the deviation of a primitive (equation 2).
+    pub deviation: Deviation,
     /// Deviation that costs nothing (section 3.4).
     #[schemars(extend("unit" = "px"))]
     pub free_error: f64,
@@ -197,7 +210,7 @@ impl FitOptions {
             corner_distance: 12.0,
             resampling: Resampling::Even,
             sampling_falloff: 0.2,
-            points_per_circle: 15.0,
+            points_per_circle: 12.0,
             min_sampling: 2.0,
             max_sampling: 1000.0,
             curvature_window: 15.0,
@@ -210,9 +223,10 @@ impl FitOptions {
             g0_cost: None,
             g1_cost: None,
             g2_cost: Some(0.0),
-            error_cost: 1.0,
+            error_cost: 5.0,
+            deviation: Deviation::Rms,
             free_error: 1.0,
-            shortness_cost: 2.0,
+            shortness_cost: 0.5,
             short_length: 30.0,
             inflection_cost: 20.0,
             g2_overlap: 2,

@@ -2,7 +2,7 @@
 
 use crate::options::{FitOptions, Resampling};
 use crate::polyline::Polyline;
-use crate::primitive_fit::{circle_through, refine};
+use crate::primitive_fit::{circle_through, walk};
 use crate::walk::Datum;
 
 /// The desired distance of samples along a polyline: at each vertex, and in between the lower of the cones of both neighbours.
@@ -31,8 +31,10 @@ pub(crate) fn rate(line: &Polyline, options: &FitOptions) -> Rate {
         let curvature = if b - a < 2 {
             0.0
         } else {
+            // One Gauss–Newton step from a circle through three of the points is near enough to place samples.
             let run = &data[a..=b];
-            refine(&circle_through(run), run, 3, 1, 1.0).primitive.kappa.abs()
+            let fit = walk(&circle_through(run), run, 1.0);
+            fit.primitive.kappa.abs().min((fit.primitive.kappa + fit.normal.step(3).map_or(0.0, |s| s[2])).abs())
         };
         let wanted = std::f64::consts::TAU / (options.points_per_circle * curvature.max(1e-9));
         at_vertex.push(wanted.clamp(options.min_sampling, options.max_sampling));

@@ -101,8 +101,8 @@ impl Walker {
     pub(crate) fn advance(&mut self, ds: f64) {
         let bend = self.sharpness * ds;
         let to_mid = ds * (0.5 * self.kappa + 0.125 * bend);
-        let to_end = ds * (0.5 * self.kappa + 0.375 * bend);
-        let mid = rotate(self.tangent, sin_cos_step(to_mid));
+        let turn = sin_cos_step(to_mid);
+        let mid = rotate(self.tangent, turn);
         let half = 0.5 * ds * (self.kappa + 0.5 * bend);
         let x = half * half;
         // The chord seen from the middle's tangent: sinc of half the turning, and the skew that sharpness adds.
@@ -118,7 +118,16 @@ impl Walker {
         self.first += step * middle + Vec2::new(-mid.y, mid.x) * (cube * (self.kappa + 0.5 * bend));
         self.second += step * (0.5 * middle * middle) + mid * (0.5 * cube);
         self.position += step;
-        self.tangent = rotate(mid, sin_cos_step(to_end));
+        // The second half turns by a little more than the first.
+        let more = 0.25 * bend * ds;
+        let end = rotate(mid, turn);
+        self.tangent = if more == 0.0 {
+            end
+        } else if more.abs() < 0.02 {
+            rotate(end, (more * (1.0 - more * more * (1.0 / 6.0)), 1.0 - 0.5 * more * more))
+        } else {
+            rotate(end, trig::sin_cos(more))
+        };
         self.s += ds;
         self.kappa += bend;
     }
@@ -139,10 +148,13 @@ impl Walker {
             if round > 0 && along.abs() < NEAR_ENOUGH {
                 break;
             }
-            // The derivative of `along` by arc length is −(1 − kappa d); near the centre of curvature it vanishes
-            // and the step is held back.
+            // The foot on the osculating circle, by the series of the arc tangent; near the circle's centre, where every
+            // point is as near, the step is held back.
             let narrowing = (1.0 - self.kappa * self.tangent.cross(v)).max(0.3);
-            let mut ds = along / narrowing;
+            let straight = along / narrowing;
+            let t = self.kappa * straight;
+            let t2 = t * t;
+            let mut ds = if t2 < 0.4 { straight * (1.0 - t2 * (1.0 / 3.0 - t2 * (0.2 - t2 * 0.12))) } else { straight / (1.0 + 0.28 * t2) };
             let limit = 1.2 / (self.kappa.abs() + (self.sharpness * ds).abs() + 1e-9);
             // Unlike clamp, this lets a NaN through instead of panicking; the caller sees it in the energy.
             ds = if ds > limit { limit } else if ds < -limit { -limit } else { ds };

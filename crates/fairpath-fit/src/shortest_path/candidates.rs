@@ -1,7 +1,7 @@
 //! Candidate primitives for every run of samples (section 3.3 of Baran et al. 2010).
 
 use crate::linear::{cholesky, solve};
-use crate::options::FitOptions;
+use crate::options::{Deviation, FitOptions};
 use crate::primitive_fit::{Normal, Walked, chord, circle_through, walk, walk_line};
 use crate::track::{Shape, Track};
 use crate::walk::{Datum, Primitive, Walker};
@@ -55,6 +55,15 @@ impl Candidate {
 pub(crate) fn penalty(error: f64, options: &FitOptions) -> f64 {
     let excess = (error - options.free_error).max(0.0);
     options.error_cost * excess * excess
+}
+
+/// The deviation that costs are counted from.
+#[inline]
+pub(crate) fn deviation(energy: f64, weight: f64, largest: f64, options: &FitOptions) -> f64 {
+    match options.deviation {
+        Deviation::Rms => 2.0 * (energy / weight.max(1e-9)).sqrt(),
+        Deviation::Max => largest,
+    }
 }
 
 /// A kind of primitive that is allowed, and the fit of the run before to start from.
@@ -249,7 +258,7 @@ fn make(
     track: &Track,
     options: &FitOptions,
 ) -> Candidate {
-    let error = normal.max;
+    let error = deviation(normal.energy, normal.weight, normal.max, options);
     let short = (options.short_length - length).max(0.0);
     let mut candidate = Candidate {
         kind: family.kind,

@@ -1,5 +1,7 @@
 //! A chain of primitives as the merge sees it, and its distance to the data (section 3.6 of Baran et al. 2010).
 
+use super::candidates::deviation;
+use crate::options::FitOptions;
 use crate::walk::{Datum, Primitive, Walker};
 use fairpath_curve::{Continuity, Kind, Point, Segment, Vec2, trig};
 use std::ops::Range;
@@ -52,6 +54,9 @@ pub(crate) struct PieceNormal {
     pub(crate) gradient: [f64; Q],
     /// `max |d|`.
     pub(crate) error: f64,
+    /// `Σ w d²` and `Σ w`.
+    pub(crate) energy: f64,
+    pub(crate) weight: f64,
     /// First datum that it was measured against, and one past the last; empty where no datum reached it.
     pub(crate) span: (usize, usize),
 }
@@ -65,10 +70,17 @@ pub(crate) struct Measured {
 }
 
 impl PieceNormal {
-    const ZERO: Self = Self { hessian: [[0.0; Q]; Q], gradient: [0.0; Q], error: 0.0, span: (usize::MAX, 0) };
+    const ZERO: Self = Self { hessian: [[0.0; Q]; Q], gradient: [0.0; Q], error: 0.0, energy: 0.0, weight: 0.0, span: (usize::MAX, 0) };
 
-    fn reached(&mut self, datum: usize, d: f64) {
+    /// The deviation that costs are counted from.
+    pub(crate) fn deviation(&self, options: &FitOptions) -> f64 {
+        deviation(self.energy, self.weight, self.error, options)
+    }
+
+    fn reached(&mut self, datum: usize, d: f64, w: f64) {
         self.error = self.error.max(d);
+        self.energy += w * d * d;
+        self.weight += w;
         self.span = (self.span.0.min(datum), self.span.1.max(datum + 1));
     }
 
@@ -125,7 +137,7 @@ impl Chain<'_> {
                 let (v, w) = (datum.point - walker.position, self.end_factor * datum.weight);
                 normals[k].add(&[1.0, 0.0, 0.0, 0.0, 0.0, 0.0], v.x, w);
                 normals[k].add(&[0.0, 1.0, 0.0, 0.0, 0.0, 0.0], v.y, w);
-                normals[k].reached(i, self.end_error(v, walker.tangent, i));
+                normals[k].reached(i, self.end_error(v, walker.tangent, i), datum.weight);
                 energy += w * v.hypot2();
                 continue;
             }
@@ -143,7 +155,7 @@ impl Chain<'_> {
                     row[LENGTH] += n.dot(walker.tangent);
                     normals[k].add(&row, d, w);
                 }
-                normals[k].reached(i, self.end_error(v, walker.tangent, i));
+                normals[k].reached(i, self.end_error(v, walker.tangent, i), datum.weight);
                 energy += w * v.hypot2();
                 continue;
             }
@@ -174,7 +186,7 @@ impl Chain<'_> {
                 row(&walker, Vec2::new(-walker.tangent.y, walker.tangent.x), q)
             };
             normals[k].add(&row, d, datum.weight);
-            normals[k].reached(i, d.abs());
+            normals[k].reached(i, d.abs(), datum.weight);
             energy += datum.weight * d * d;
         }
         energy

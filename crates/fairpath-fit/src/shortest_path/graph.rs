@@ -6,7 +6,7 @@
 //! at the first that cannot improve on what is found.
 
 use super::candidates::Candidate;
-use super::transition::{estimate, overlap, possible};
+use super::transition::{at_least, estimate, overlap, possible};
 use crate::options::FitOptions;
 use crate::track::Track;
 use fairpath_curve::{Continuity, Kind};
@@ -96,6 +96,16 @@ impl<'a> Graph<'a> {
         }
         self.computed += 1;
         self.estimated(edge, base)
+    }
+
+    /// A bound from below of what a join adds to its base cost, infinite where it is impossible.
+    #[inline]
+    fn bound(&self, from: u32, to: u32, level: Continuity) -> f64 {
+        let (u, v) = (&self.nodes[from as usize], &self.nodes[to as usize]);
+        if !possible(u.kind, v.kind, level) {
+            return f64::INFINITY;
+        }
+        at_least(&self.candidates[u.candidate as usize], &self.candidates[v.candidate as usize], level, self.options)
     }
 
     /// The cost of an edge before verification.
@@ -288,6 +298,9 @@ impl Distances {
                 // Those that end no later than this one would not move on.
                 let span = graph.nodes[next as usize].last - graph.nodes[next as usize].first;
                 if next_start + span as usize <= end {
+                    continue;
+                }
+                if base + ahead + graph.bound(node, next, level) >= best {
                     continue;
                 }
                 let total = graph.edge_cost(Edge { from: node, to: next, level }, base) + ahead;

@@ -4,7 +4,7 @@
 //! change that the same costs would welcome (two pieces become one, a clothoid becomes an arc, an arc a line, a piece is split) is tried on
 //! the piece and its neighbours, merged anew, and kept if what it really costs is less. Beyond the paper.
 
-use super::candidates::penalty;
+use super::candidates::{deviation, penalty};
 use super::chain::{Chain, KAPPA0, KAPPA1, LENGTH, Measured, Piece, end};
 use super::merge::{Effort, merge};
 use super::transition::possible;
@@ -48,7 +48,7 @@ pub(crate) fn refine(chain: &mut Chain, measured: Measured, options: &FitOptions
 
 /// The cost of a chain as section 3.4 counts it, on the chain as it is.
 fn total(chain: &Chain, measured: &Measured, options: &FitOptions) -> f64 {
-    let errors = measured.normals.iter().map(|n| n.error);
+    let errors = measured.normals.iter().map(|n| n.deviation(options));
     cost(&chain.pieces, errors, options)
 }
 
@@ -135,7 +135,7 @@ fn changes(chain: &Chain, measured: &Measured, k: usize, options: &FitOptions) -
         let (a, b) = (&chain.pieces[k], &chain.pieces[k + 1]);
         let data = span(measured, k..k + 2);
         for (kind, price) in kinds {
-            if let (Some(price), Some(piece)) = (price, united(chain, a, b, kind, data.clone()))
+            if let (Some(price), Some(piece)) = (price, united(chain, (a, b), kind, data.clone(), options))
                 && both - price - penalty(piece.1, options) > WORTHWHILE
             {
                 out.push(Change { range: k..k + 2, with: vec![piece.0], level: Continuity::G2 });
@@ -146,7 +146,7 @@ fn changes(chain: &Chain, measured: &Measured, k: usize, options: &FitOptions) -
     for (kind, price) in kinds {
         let piece = &chain.pieces[k];
         if simplicity(kind) < simplicity(piece.kind)
-            && let (Some(price), Some(simpler)) = (price, united(chain, piece, piece, kind, span(measured, k..k + 1)))
+            && let (Some(price), Some(simpler)) = (price, united(chain, (piece, piece), kind, span(measured, k..k + 1), options))
             && own - price - penalty(simpler.1, options) > WORTHWHILE
         {
             out.push(Change { range: k..k + 1, with: vec![simpler.0], level: Continuity::G2 });
@@ -181,7 +181,7 @@ fn simplicity(kind: Kind) -> u8 {
 }
 
 fn piece_cost(chain: &Chain, measured: &Measured, k: usize, options: &FitOptions) -> f64 {
-    cost(&chain.pieces[k..=k], [measured.normals[k].error].into_iter(), options)
+    cost(&chain.pieces[k..=k], [measured.normals[k].deviation(options)].into_iter(), options)
 }
 
 /// The data that pieces were measured against.
@@ -195,7 +195,13 @@ fn span(measured: &Measured, pieces: Range<usize>) -> Range<usize> {
 }
 
 /// One piece in place of a run from `a` to `b`, freely fitted to the run's data, and its error.
-fn united(chain: &Chain, a: &Piece, b: &Piece, kind: Kind, data: Range<usize>) -> Option<(Piece, f64)> {
+fn united(
+    chain: &Chain,
+    (a, b): (&Piece, &Piece),
+    kind: Kind,
+    data: Range<usize>,
+    options: &FitOptions,
+) -> Option<(Piece, f64)> {
     let data = chain.data.get(data)?;
     if data.len() < 3 {
         return None;
@@ -231,7 +237,7 @@ fn united(chain: &Chain, a: &Piece, b: &Piece, kind: Kind, data: Range<usize>) -
         sign,
         longest: 3.0 * fit.length + 30.0,
     };
-    Some((piece, fit.normal.max))
+    Some((piece, deviation(fit.normal.energy, fit.normal.weight, fit.normal.max, options)))
 }
 
 /// Whether a change leaves a chain whose joins can all hold.
@@ -318,7 +324,7 @@ fn tried(chain: &Chain, measured: &Measured, change: &Change, options: &FitOptio
     if part.data.len() < 3 {
         return None;
     }
-    let errors = measured.normals[window.clone()].iter().map(|n| n.error);
+    let errors = measured.normals[window.clone()].iter().map(|n| n.deviation(options));
     let before = cost(&chain.pieces[window.clone()], errors, options);
     let mut result = merge(&mut part, TRY)?;
     let gain = before - total(&part, &result, options);

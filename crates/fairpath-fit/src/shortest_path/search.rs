@@ -143,7 +143,7 @@ fn verify(graph: &Graph, edge: Edge, track: &Track, options: &FitOptions) -> f64
     let (u, v) = (&graph.candidates[ends[0].candidate as usize], &graph.candidates[ends[1].candidate as usize]);
     let mut chain = chain(graph.candidates, &ends, vec![edge.level], track, false, options);
     let Some(measured) = merge(&mut chain, VERIFY) else { return f64::INFINITY };
-    let (a, b) = (measured.normals[0].error, measured.normals[1].error);
+    let (a, b) = (measured.normals[0].deviation(options), measured.normals[1].deviation(options));
     (penalty(a, options) - penalty(u.error, options)).max(0.0)
         + (penalty(b, options) - penalty(v.error, options)).max(0.0)
 }

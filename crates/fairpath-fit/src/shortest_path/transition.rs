@@ -37,6 +37,36 @@ pub(crate) fn estimate(u: &Candidate, v: &Candidate, level: Continuity, options:
     Some(cost.max(0.0))
 }
 
+/// A bound from below of [`estimate`] by covariance, at a fraction of its cost: the gap in curvature or heading alone, where the
+/// join may slide as far as it can.
+#[inline]
+pub(crate) fn at_least(u: &Candidate, v: &Candidate, level: Continuity, options: &FitOptions) -> f64 {
+    if level < Continuity::G2 || options.transitions == Transitions::Paper || options.g2_overlap == 1 {
+        return 0.0;
+    }
+    let inner = usize::from(options.g2_overlap >= 2);
+    let (a, b) = (&u.tail[inner], &v.head[inner]);
+    let reach = slide_reach(u, v);
+    let slope = (v.primitive.sharpness - u.primitive.sharpness).abs();
+    let bend = (b.curvature - a.curvature).abs();
+    let bend_left = (bend - reach * slope).max(0.0);
+    let variance = a.covariance[5] + b.covariance[5] + FIRMNESS[2];
+    let energy = 0.5 * bend_left * bend_left / variance;
+    // One of the two takes at least half of it.
+    let peak = options.transition_peak * options.transition_peak;
+    let rise = |c: &Candidate| {
+        let moved = (c.error * c.error + peak * energy / c.weight).sqrt();
+        penalty(moved, options) - penalty(c.error, options)
+    };
+    rise(u).min(rise(v))
+}
+
+/// How far a join may slide from the middle of its overlap, px.
+#[inline]
+fn slide_reach(u: &Candidate, v: &Candidate) -> f64 {
+    0.25 * (u.length / f64::from(u.last - u.first)).min(v.length / f64::from(v.last - v.first))
+}
+
 /// The states of both candidates at each sample in the middle of their overlap.
 fn meeting<'a>(
     u: &'a Candidate,
@@ -81,7 +111,7 @@ fn by_covariance(u: &Candidate, v: &Candidate, level: Continuity, options: &FitO
             top += gap[i] * pulled[i];
             bottom += drift[i] * pulled[i];
         }
-        let reach = 0.25 * (u.length / f64::from(u.last - u.first)).min(v.length / f64::from(v.last - v.first));
+        let reach = slide_reach(u, v);
         let slide = if bottom > 0.0 { (-top / bottom).clamp(-reach, reach) } else { 0.0 };
         for i in 0..dimensions {
             gap[i] += slide * drift[i];
