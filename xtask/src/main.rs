@@ -1,2 +1,100 @@
-//! The project's own chores.
-fn main() {}
+//! The project's own chores: the one test command, the judges, the benches and the generated references.
+
+mod bench;
+mod data;
+mod evaluate;
+mod fuzz;
+mod generate;
+mod judges;
+mod layers;
+mod limits;
+mod process;
+mod steps;
+mod table;
+mod table1;
+mod test;
+mod tools;
+mod tree;
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+
+/// The project's own chores.
+#[derive(Parser)]
+#[command(name = "cargo xtask")]
+struct Cli {
+    #[command(subcommand)]
+    chore: Chore,
+}
+
+#[derive(Subcommand)]
+enum Chore {
+    /// The one test command: style, lints, tests, documentation, layers and every outside judge.
+    Test,
+    /// The judges alone: kernel, DXF and SVG.
+    Judge,
+    /// Fit every file of the shared data folder, judge the results and hold them against the limits.
+    Evaluate {
+        /// Only files whose names begin so.
+        names: Vec<String>,
+    },
+    /// Time the fitter, stroke by stroke in one thread, with its growth and its peak memory.
+    Bench {
+        /// Only files whose names begin so.
+        names: Vec<String>,
+        /// Each stroke's time is the best of so many.
+        #[arg(long, default_value_t = 5)]
+        repeat: usize,
+    },
+    /// The paper's table 1 for the like strokes of the shared data folder.
+    Table1 {
+        /// Each stroke's row is the fastest of so many.
+        #[arg(long, default_value_t = 5)]
+        repeat: usize,
+    },
+    /// Run each fuzz target for a while.
+    Fuzz {
+        /// Seconds for each target.
+        #[arg(default_value_t = 60)]
+        seconds: u64,
+    },
+    /// Write the generated references under docs/ anew.
+    Generate {
+        /// Only say whether they are stale.
+        #[arg(long)]
+        check: bool,
+    },
+    /// Check who depends on whom.
+    Layers,
+    /// Fit one stroke of a file and print this process's peak memory in kB.
+    #[command(hide = true)]
+    PeakMemory {
+        /// The file.
+        file: PathBuf,
+        /// The stroke's name.
+        name: String,
+    },
+}
+
+fn main() -> ExitCode {
+    let outcome = match Cli::parse().chore {
+        Chore::Test => test::run(),
+        Chore::Judge => test::judge(),
+        Chore::Evaluate { names } => evaluate::run(&names),
+        Chore::Bench { names, repeat } => bench::run(&names, repeat),
+        Chore::Table1 { repeat } => table1::run(repeat),
+        Chore::Fuzz { seconds } => fuzz::run(seconds),
+        Chore::Generate { check } => generate::run(check),
+        Chore::Layers => layers::run().map(|note| println!("{note}")),
+        Chore::PeakMemory { file, name } => bench::peak_memory(&file, &name),
+    };
+    match outcome {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("xtask: {error:#}");
+            ExitCode::FAILURE
+        }
+    }
+}

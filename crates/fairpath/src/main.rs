@@ -1,2 +1,7 @@
-//! The command line.
-fn main() {}
+//! The command line; all of it is in the library beside, where the project's chores can reach it.
+
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    fairpath::run()
+}

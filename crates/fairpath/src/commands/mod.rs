@@ -1,0 +1,15 @@
+//! A module for each verb.
+
+pub(crate) mod convert;
+pub(crate) mod fit;
+mod fit_inputs;
+mod fit_report;
+
+/// How a command ended, when its arguments and inputs were usable.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Ending {
+    /// All done.
+    Done,
+    /// Some stroke failed, or `--strict` found a tolerance missed.
+    SomeFailed,
+}

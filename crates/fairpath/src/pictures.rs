@@ -1,0 +1,57 @@
+//! Results as files of every form, by way of fairpath-io.
+
+use anyhow::Result;
+use fairpath_curve::Spline;
+use fairpath_fit::{Stages, Stroke, Warning};
+use fairpath_io::picture::{Comb, Layout, PictureOptions, draw_splines, draw_stages};
+use fairpath_io::{Encoded, SplineFile, SplineFormat, StrokeFile, WriteOptions, YAxis, encode_splines};
+
+use crate::args::OutputFormat;
+
+/// A spline file in a format, with what that does not hold. A PNG shows the strokes, if given, behind their curves.
+///
+/// # Errors
+/// When something cannot be expressed in the format.
+pub(crate) fn encode(
+    file: &SplineFile,
+    strokes: Option<&StrokeFile>,
+    format: OutputFormat,
+    flip_y: bool,
+) -> Result<(Vec<u8>, Vec<Warning>)> {
+    let mut options = WriteOptions::default();
+    options.dxf.flip_y = flip_y;
+    let Encoded { bytes, warnings } = encode_splines(file, spline_format(format), strokes, &options)?;
+    Ok((bytes, warnings))
+}
+
+fn spline_format(format: OutputFormat) -> SplineFormat {
+    match format {
+        OutputFormat::Json => SplineFormat::Json,
+        OutputFormat::Svg => SplineFormat::Svg,
+        OutputFormat::Dxf => SplineFormat::Dxf,
+        OutputFormat::Csv => SplineFormat::Csv,
+        OutputFormat::Png => SplineFormat::Png,
+    }
+}
+
+/// A picture of strokes and curves with joins, corners and curvature combs, as SVG or PNG.
+///
+/// # Errors
+/// When there is no room for the picture's pixels.
+pub(crate) fn overview(file: &SplineFile, strokes: &StrokeFile, png: bool, sheet: bool) -> Result<Vec<u8>> {
+    let mut options = PictureOptions::default();
+    options.comb = Comb::Auto;
+    if sheet {
+        options.layout = Layout::Sheet { columns: None };
+    }
+    let picture = draw_splines(file, Some(strokes), &options);
+    Ok(if png { picture.to_png()? } else { picture.to_svg().as_bytes().to_vec() })
+}
+
+/// The steps of a fit as pictures in the manner of the paper's figure 4: a word for each and its SVG.
+pub(crate) fn steps(stroke: &Stroke, stages: &Stages, spline: &Spline, y: YAxis) -> Vec<(String, Vec<u8>)> {
+    draw_stages(stroke, stages, spline, y, &PictureOptions::default())
+        .into_iter()
+        .map(|step| (format!("{}-{}", step.letter, step.name), step.picture.to_svg().as_bytes().to_vec()))
+        .collect()
+}

@@ -1,0 +1,59 @@
+//! The generated references: what the program says about itself, as files under `docs/`.
+
+use std::fmt::Write as _;
+
+use clap::CommandFactory;
+use fairpath_fit::{FitOptions, Preset};
+use serde_json::Value;
+
+use crate::args::{Cli, preset_name};
+use crate::parameters;
+
+/// Every reference: file name and text.
+#[must_use]
+pub fn all() -> Vec<(String, String)> {
+    vec![("command-line.md".into(), command_line()), ("parameters.md".into(), parameters_page())]
+}
+
+fn command_line() -> String {
+    let mut text = String::from("# The command line\n\nWritten by `cargo xtask generate`.\n");
+    let mut command = Cli::command().term_width(110);
+    command.build();
+    let mut section = |title: &str, help: String| {
+        let help: Vec<&str> = help.lines().map(str::trim_end).collect();
+        // Writing to a String cannot fail.
+        let _ = write!(text, "\n## {title}\n\n```text\n{}\n```\n", help.join("\n").trim_end());
+    };
+    section("fairpath", command.render_long_help().to_string());
+    for verb in command.get_subcommands_mut() {
+        if verb.get_name() != "help" {
+            section(&format!("fairpath {}", verb.get_name()), verb.render_long_help().to_string());
+        }
+    }
+    text
+}
+
+fn parameters_page() -> String {
+    let mut text = String::from(
+        "# The fitter's parameters\n\nWritten by `cargo xtask generate`. Each can be set by `--set NAME=VALUE`; \
+         sections and equations are those of Baran, Lehtinen and Popović (2010).\n\n| parameter | unit | kind |",
+    );
+    let values = Preset::ALL.map(|preset| serde_json::to_value(FitOptions::preset(preset)).unwrap_or(Value::Null));
+    for preset in Preset::ALL {
+        let _ = write!(text, " {} |", preset_name(preset));
+    }
+    let _ = writeln!(text, " meaning |\n| --- | --- | --- |{} --- |", " ---: |".repeat(Preset::ALL.len()));
+    let cell = |text: &str| text.replace('|', "\\|");
+    for parameter in parameters::all() {
+        let _ = write!(text, "| `{}` | {} | {} |", parameter.name, cell(&parameter.unit), cell(&parameter.kind));
+        let usual = &values[0][&parameter.name];
+        for (i, value) in values.iter().enumerate() {
+            let value = &value[&parameter.name];
+            // Only what a preset changes is shown in its column.
+            let shown = if i > 0 && value == usual { String::new() } else { parameters::show(value) };
+            let _ = write!(text, " {shown} |");
+        }
+        let _ = writeln!(text, " {} |", cell(&parameter.description));
+    }
+    text
+}

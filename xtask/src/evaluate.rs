@@ -1,0 +1,207 @@
+//! Every file of the shared data folder through the command line and then through the evaluator, which trusts nothing.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::time::Duration;
+
+use anyhow::{Context, Result, bail};
+use serde_json::Value;
+
+use crate::steps::{Outcome, Steps};
+use crate::{bench, data, limits, process, table, tools, tree};
+
+const HEADER: &[&str] = &[
+    "file",
+    "strokes",
+    "refused",
+    "segments",
+    "L/A/C",
+    "corners",
+    "rms mean",
+    "dev p99",
+    "dev max",
+    "rev max",
+    "truth rms",
+    "missed",
+    "extra",
+    "ms total",
+    "ms max",
+];
+
+/// A file that takes longer than this to fit is taken for one that never ends. Every one of them should take seconds.
+const LIMIT: Duration = Duration::from_secs(240);
+
+/// So many strokes that are too far off are named.
+const WORST: usize = 8;
+
+/// The evaluator's part of the test command alone, for files whose names begin with one of `names`, or for all.
+pub(crate) fn run(names: &[String]) -> Result<()> {
+    process::run(&mut process::cargo(&["build", "--release", "--package", "fairpath"]))?;
+    let mut steps = Steps::default();
+    add_steps(&mut steps, names);
+    steps.finish()
+}
+
+/// Adds a step for each file; where the shared data folder is absent, one that says so.
+pub(crate) fn add_steps(steps: &mut Steps, names: &[String]) {
+    let mut files = files();
+    files.retain(|file| names.is_empty() || names.iter().any(|name| file_name(file).starts_with(name)));
+    if files.is_empty() || !tree::evaluator().exists() {
+        steps.step("evaluator", || {
+            let missing = format!("no such files in the shared data folder ({})", tree::shared().display());
+            if tree::on_build_server() { bail!("{missing}") } else { Ok(Outcome::Skipped(missing)) }
+        });
+        return;
+    }
+    let mut rows = Vec::new();
+    let mut growth = None;
+    for file in files {
+        let name = file_name(&file);
+        steps.step(format!("evaluator: {name}"), || {
+            let judged = judge(&file)?;
+            rows.push(row(&name, &judged));
+            if name == bench::LONG {
+                growth = Some(exponent(&file, &judged)?);
+            }
+            let mut faults = judged.faults;
+            faults.extend(limits::breaches(&name, &judged.summary));
+            for fault in &faults {
+                println!("{name}: {fault}");
+            }
+            if faults.is_empty() {
+                Ok(Outcome::Passed(format!("{} strokes within the limits", judged.summary["strokes"])))
+            } else {
+                bail!("{}", faults.join("; "))
+            }
+        });
+    }
+    println!();
+    table::print(HEADER, &rows);
+    if let Some(exponent) = growth {
+        println!(
+            "\ngrowth over {}: ms ~ length^{exponent:.2}, each stroke timed once (see `cargo xtask bench`)",
+            bench::LONG
+        );
+    }
+}
+
+/// How the time for a stroke grows with its length.
+fn exponent(file: &Path, judged: &Judged) -> Result<f64> {
+    let strokes = data::load(file)?;
+    let timed = judged.rows.iter().filter_map(|row| {
+        let stroke = strokes.iter().find(|stroke| row["name"] == *stroke.name)?;
+        Some((data::polyline_length(stroke), row["ms"].as_f64()?))
+    });
+    Ok(bench::exponent(timed))
+}
+
+/// The stroke files, in order of name.
+fn files() -> Vec<PathBuf> {
+    let entries = fs::read_dir(tree::strokes()).into_iter().flatten().flatten().map(|entry| entry.path());
+    let mut files: Vec<PathBuf> = entries.filter(|path| is_strokes(&file_name(path))).collect();
+    files.sort();
+    files
+}
+
+fn is_strokes(name: &str) -> bool {
+    name.ends_with(".json") && !name.ends_with("-truth.json")
+}
+
+fn file_name(path: &Path) -> String {
+    path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default()
+}
+
+struct Judged {
+    summary: Value,
+    rows: Vec<Value>,
+    faults: Vec<String>,
+}
+
+fn judge(strokes: &Path) -> Result<Judged> {
+    let name = file_name(strokes);
+    let spline = tree::scratch("evaluate")?.join(&name);
+    let figures = spline.with_extension("figures.json");
+    let mut faults = Vec::new();
+
+    // One thread, so that the times in the table are the strokes' own.
+    let mut fit = Command::new(tree::fairpath()?);
+    fit.arg("fit").arg(strokes).arg("-o").arg(&spline).args(["--threads", "1"]);
+    let ran = process::capture_within(&mut fit, LIMIT)?;
+    if !matches!(ran.code, Some(0 | 1)) {
+        bail!("{} ended with {:?}:\n{}", process::shown(&fit), ran.code, ran.text);
+    }
+    if ran.text.contains("panicked") {
+        println!("{}", ran.text);
+        faults.push("the fitter panicked".into());
+    }
+    for failure in read_json(&spline)?["failures"].as_array().into_iter().flatten() {
+        if failure["code"] != limits::ALLOWED_REFUSAL {
+            faults.push(format!("refused: {failure}"));
+        }
+    }
+
+    let mut evaluator = Command::new(tools::python()?);
+    evaluator.arg(tree::evaluator()).arg(strokes).arg(&spline).arg("--json").arg(&figures).arg("--quiet");
+    let truth = strokes.with_file_name(name.replace(".json", "-truth.json"));
+    if truth.exists() {
+        evaluator.arg("--truth").arg(truth);
+    }
+    let ran = process::capture(&mut evaluator)?;
+    print!("{}", ran.text);
+    if ran.code != Some(0) {
+        faults.push("the evaluator found faults".into());
+    }
+    let figures = read_json(&figures)?;
+    let rows = figures["rows"].as_array().cloned().unwrap_or_default();
+    for row in &rows {
+        for fault in row["faults"].as_array().into_iter().flatten() {
+            faults.push(format!("{}: {}", row["name"].as_str().unwrap_or("?"), fault.as_str().unwrap_or("?")));
+        }
+    }
+    print_worst(&rows);
+    Ok(Judged { summary: figures["summary"].clone(), rows, faults })
+}
+
+/// Names the strokes that are furthest off, where any is too far: it is them that one wants to see.
+fn print_worst(rows: &[Value]) {
+    for figure in ["dev_max", "rev_max"] {
+        let Some((_, most)) = limits::EVERY_FILE.iter().find(|(name, _)| *name == figure) else { continue };
+        let value = |row: &&Value| row[figure].as_f64().unwrap_or(f64::INFINITY);
+        let mut worst: Vec<&Value> = rows.iter().filter(|row| value(row) > *most).collect();
+        worst.sort_by(|a, b| value(b).total_cmp(&value(a)));
+        for row in worst.iter().take(WORST) {
+            println!("  {figure} {:.1}: {}", value(row), row["name"].as_str().unwrap_or("?"));
+        }
+    }
+}
+
+fn read_json(path: &Path) -> Result<Value> {
+    let text = fs::read(path).with_context(|| format!("cannot read {}", path.display()))?;
+    serde_json::from_slice(&text).with_context(|| format!("{} is no JSON", path.display()))
+}
+
+fn row(name: &str, judged: &Judged) -> Vec<String> {
+    let sum = |key: &str| judged.rows.iter().filter_map(|row| row[key].as_u64()).sum::<u64>();
+    let figure = |key: &str| match &judged.summary[key] {
+        Value::Null => "-".to_owned(),
+        value => value.to_string(),
+    };
+    let mut cells = vec![name.to_owned(), figure("strokes"), figure("refused"), figure("segments")];
+    cells.push(format!("{}/{}/{}", sum("lines"), sum("arcs"), sum("clothoids")));
+    for key in [
+        "corners",
+        "dev_rms_mean",
+        "dev_max_p99",
+        "dev_max",
+        "rev_max",
+        "truth_rms_mean",
+        "missed_corners",
+        "extra_corners",
+        "ms_total",
+        "ms_max",
+    ] {
+        cells.push(figure(key));
+    }
+    cells
+}

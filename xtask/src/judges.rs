@@ -1,0 +1,85 @@
+//! Programs that nobody here wrote, judging what this project writes. A judge must also find fault with rubbish:
+//! one that passes everything proves nothing.
+
+use std::fs::{self, File};
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+use anyhow::{Context, Result, bail};
+
+use crate::steps::Outcome;
+use crate::{process, tools, tree};
+
+/// The kernel's numbers against mpmath, scipy and pyclothoids.
+pub(crate) fn kernel() -> Result<Outcome> {
+    let cases = tree::scratch("judges")?.join("kernel-cases.txt");
+    let file = File::create(&cases).with_context(|| format!("cannot write {}", cases.display()))?;
+    let mut example =
+        process::cargo(&["run", "--quiet", "--release", "--package", "fairpath-curve", "--example", "kernel_cases"]);
+    process::run(example.stdout(file))?;
+    let mut judge = Command::new(tools::python()?);
+    judge.arg(tree::root().join("tools/judge_kernel.py")).stdin(Stdio::from(File::open(&cases)?));
+    process::run(&mut judge)?;
+    Ok(Outcome::Passed("mpmath, scipy and pyclothoids agree with the kernel".into()))
+}
+
+/// A fitted drawing as DXF, read by ezdxf.
+pub(crate) fn dxf() -> Result<Outcome> {
+    let (spline, folder) = fitted_example()?;
+    let dxf = folder.join("hello.dxf");
+    convert(&spline, &dxf)?;
+    let script = tree::root().join("xtask/judges/judge_dxf.py");
+    let judge = |file: &Path| process::capture(Command::new(tools::python()?).arg(&script).arg(file).arg(&spline));
+    let ran = judge(&dxf)?;
+    print!("{}", ran.text);
+    if ran.code != Some(0) {
+        bail!("ezdxf finds fault with {}", dxf.display());
+    }
+    let rubbish = folder.join("rubbish.dxf");
+    fs::write(&rubbish, "0\nSECTION\nthis is no drawing\n")?;
+    if judge(&rubbish)?.code == Some(0) {
+        bail!("the judge passes rubbish, so its word is worth nothing");
+    }
+    Ok(Outcome::Passed(ran.text.lines().last().unwrap_or_default().to_owned()))
+}
+
+/// A fitted drawing as SVG, drawn by librsvg.
+pub(crate) fn svg() -> Result<Outcome> {
+    if let Err(error) = tools::rsvg_convert() {
+        return if tree::on_build_server() { Err(error) } else { Ok(Outcome::Skipped(format!("{error:#}"))) };
+    }
+    let (spline, folder) = fitted_example()?;
+    let svg = folder.join("hello.svg");
+    convert(&spline, &svg)?;
+    let draw = |svg: &Path, png: &Path| {
+        let ran = process::capture(Command::new("rsvg-convert").arg(svg).arg("-o").arg(png))?;
+        let bytes = fs::metadata(png).map(|data| data.len()).unwrap_or(0);
+        Ok::<_, anyhow::Error>((ran, bytes))
+    };
+    let (ran, bytes) = draw(&svg, &folder.join("hello.png"))?;
+    let blank_svg = folder.join("blank.svg");
+    fs::write(&blank_svg, r#"<svg xmlns="http://www.w3.org/2000/svg" width="800" height="400"/>"#)?;
+    let (_, blank) = draw(&blank_svg, &folder.join("blank.png"))?;
+    if ran.code != Some(0) || bytes <= blank {
+        bail!("rsvg-convert ended with {:?} and drew {bytes} bytes (a blank page: {blank}): {}", ran.code, ran.text);
+    }
+    let rubbish = folder.join("rubbish.svg");
+    fs::write(&rubbish, "<svg><path d=")?;
+    if draw(&rubbish, &folder.join("rubbish.png"))?.0.code == Some(0) {
+        bail!("the judge passes rubbish, so its word is worth nothing");
+    }
+    Ok(Outcome::Passed(format!("librsvg draws it: {bytes} bytes of PNG, a blank page has {blank}")))
+}
+
+fn fitted_example() -> Result<(PathBuf, PathBuf)> {
+    let folder = tree::scratch("judges")?;
+    let spline = folder.join("hello.json");
+    let mut fit = Command::new(tree::fairpath()?);
+    fit.arg("fit").arg(tree::root().join("examples/hello.json")).arg("-o").arg(&spline);
+    process::run(&mut fit)?;
+    Ok((spline, folder))
+}
+
+fn convert(spline: &Path, out: &Path) -> Result<()> {
+    process::run(Command::new(tree::fairpath()?).arg("convert").arg(spline).arg("-o").arg(out))
+}

@@ -1,0 +1,79 @@
+//! What the judges need, installed where it is missing: Python packages into `cache/`, system packages if we may.
+
+use std::fs;
+use std::path::PathBuf;
+use std::process::Command;
+
+use anyhow::{Context, Result, bail};
+
+use crate::{process, tree};
+
+const REQUIREMENTS: &str = include_str!("../judges/requirements.txt");
+
+/// Fails with a remedy where a part of the toolchain is missing.
+pub(crate) fn components() -> Result<String> {
+    for (component, probe) in [("rustfmt", "fmt"), ("clippy", "clippy")] {
+        let ran = process::capture(&mut process::cargo(&[probe, "--version"]))?;
+        if ran.code != Some(0) {
+            bail!("the toolchain lacks {component}: run `rustup component add {component}`");
+        }
+        print!("{}", ran.text);
+    }
+    Ok("rustfmt and clippy are here".into())
+}
+
+/// The Python that runs the judges, in a virtual environment of its own with pinned packages.
+pub(crate) fn python() -> Result<PathBuf> {
+    let folder = tree::cache().join("judges");
+    let python = folder.join(if cfg!(windows) { "Scripts/python.exe" } else { "bin/python" });
+    let stamp = folder.join("requirements.txt");
+    // The stamp is written last, so a broken installation is never taken for a good one.
+    if python.exists() && fs::read_to_string(&stamp).is_ok_and(|text| text == REQUIREMENTS) {
+        return Ok(python);
+    }
+    fs::create_dir_all(tree::cache()).context("cannot make cache/")?;
+    make_venv(&folder)?;
+    let wanted = tree::root().join("xtask/judges/requirements.txt");
+    process::run(Command::new(&python).args(["-m", "pip", "install", "--quiet", "--requirement"]).arg(wanted))
+        .context("cannot install the judges' Python packages")?;
+    fs::write(&stamp, REQUIREMENTS).with_context(|| format!("cannot write {}", stamp.display()))?;
+    Ok(python)
+}
+
+fn make_venv(folder: &PathBuf) -> Result<()> {
+    let make = || process::run(Command::new("python3").args(["-m", "venv", "--clear"]).arg(folder));
+    if process::exists("python3") && make().is_ok() {
+        return Ok(());
+    }
+    apt("python3-venv").context("`python3 -m venv` does not work here")?;
+    make()
+}
+
+/// Makes sure that `rsvg-convert` is here, if it can be had.
+pub(crate) fn rsvg_convert() -> Result<()> {
+    if process::exists("rsvg-convert") { Ok(()) } else { apt("librsvg2-bin") }
+}
+
+/// Installs a system package, which only the superuser of a Debian system may.
+fn apt(package: &str) -> Result<()> {
+    let user = process::capture(Command::new("id").arg("-u")).map(|ran| ran.text).unwrap_or_default();
+    if user.trim() != "0" || !process::exists("apt-get") {
+        bail!("install the system package {package} (Debian's name) and run this again");
+    }
+    let install = || {
+        let mut command = Command::new("apt-get");
+        command.args(["install", "--yes", "--quiet", "--no-install-recommends", package]);
+        command.env("DEBIAN_FRONTEND", "noninteractive");
+        process::capture(&mut command)
+    };
+    if install()?.code == Some(0) {
+        return Ok(());
+    }
+    // The list of packages may be missing or old.
+    process::capture(Command::new("apt-get").args(["update", "--quiet"]))?;
+    let ran = install()?;
+    if ran.code != Some(0) {
+        bail!("apt-get could not install {package}:\n{}", ran.text);
+    }
+    Ok(())
+}
