@@ -1,5 +1,6 @@
 //! Everything that can be set about fitting, with the paper's numbers as they stand there.
 
+use crate::result::FitError;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -261,6 +262,80 @@ impl FitOptions {
             },
             Preset::Clothoids => Self { line_cost: None, arc_cost: None, ..default },
         }
+    }
+
+    /// Checks every option against its range.
+    ///
+    /// # Errors
+    /// Names the first option that is out of its range.
+    pub fn validate(&self) -> Result<(), FitError> {
+        let positive = |v: f64| v.is_finite() && v > 0.0;
+        let not_negative = |v: f64| v.is_finite() && v >= 0.0;
+        type Rule<'a> = (&'static str, f64, &'a dyn Fn(f64) -> bool, &'static str);
+        let within = |low: f64, high: f64| move |v: f64| (low..=high).contains(&v);
+        let (share, sampled, circle) = (within(0.0, 1.0), within(0.25, 1e6), within(4.0, 200.0));
+        let (window, angle, falloff) = (within(4.0, 1000.0), within(1.0, 179.0), within(0.01, 10.0));
+        let (pixel, limit) = (within(1e-12, 1e12), within(0.01, 1e4));
+        let rules: [Rule; 25] = [
+            ("pixel_size", self.pixel_size, &pixel, "1e-12 to 1e12"),
+            ("closing_gap", self.closing_gap, &not_negative, "0 or more"),
+            ("corner_angle", self.corner_angle, &angle, "1 to 179 degrees"),
+            ("corner_score", self.corner_score, &not_negative, "0 or more"),
+            ("corner_share", self.corner_share, &share, "0 to 1"),
+            ("corner_noise", self.corner_noise, &positive, "more than 0"),
+            ("corner_window", self.corner_window, &window, "4 to 1000 px"),
+            ("corner_distance", self.corner_distance, &not_negative, "0 or more"),
+            ("sampling_falloff", self.sampling_falloff, &falloff, "0.01 to 10"),
+            ("points_per_circle", self.points_per_circle, &circle, "4 to 200"),
+            ("min_sampling", self.min_sampling, &sampled, "0.25 to 1e6 px"),
+            ("max_sampling", self.max_sampling, &sampled, "0.25 to 1e6 px"),
+            ("max_sampling", self.max_sampling, &|v| v >= self.min_sampling, "at least min_sampling"),
+            ("curvature_window", self.curvature_window, &window, "4 to 1000 px"),
+            ("max_error", self.max_error, &limit, "0.01 to 1e4 px"),
+            ("end_factor", self.end_factor, &limit, "0.01 to 1e4"),
+            ("sample_share", self.sample_share, &share, "0 to 1"),
+            ("error_cost", self.error_cost, &not_negative, "0 or more"),
+            ("free_error", self.free_error, &not_negative, "0 or more"),
+            ("shortness_cost", self.shortness_cost, &not_negative, "0 or more"),
+            ("short_length", self.short_length, &not_negative, "0 or more"),
+            ("inflection_cost", self.inflection_cost, &not_negative, "0 or more"),
+            ("transition_peak", self.transition_peak, &not_negative, "0 or more"),
+            ("max_join_error", self.max_join_error, &positive, "more than 0"),
+            ("validation_rounds", self.validation_rounds as f64, &within(0.0, 1000.0), "0 to 1000"),
+        ];
+        for (name, value, accepts, expected) in rules {
+            if !accepts(value) {
+                return Err(FitError::BadOption { name, value, expected });
+            }
+        }
+        for (name, overlap) in [("g2_overlap", self.g2_overlap), ("g1_overlap", self.g1_overlap)] {
+            if overlap > 2 {
+                return Err(FitError::BadOption { name, value: overlap as f64, expected: "0, 1 or 2" });
+            }
+        }
+        let costs = [
+            ("line_cost", self.line_cost),
+            ("arc_cost", self.arc_cost),
+            ("clothoid_cost", self.clothoid_cost),
+            ("g0_cost", self.g0_cost),
+            ("g1_cost", self.g1_cost),
+            ("g2_cost", self.g2_cost),
+        ];
+        for (name, cost) in costs {
+            if let Some(value) = cost
+                && !not_negative(value)
+            {
+                return Err(FitError::BadOption { name, value, expected: "0 or more, or null to forbid" });
+            }
+        }
+        if self.line_cost.is_none() && self.arc_cost.is_none() && self.clothoid_cost.is_none() {
+            return Err(FitError::BadOption {
+                name: "line_cost",
+                value: f64::NAN,
+                expected: "at least one kind of primitive must be allowed",
+            });
+        }
+        Ok(())
     }
 
     /// The sizes of neighbourhood in which corners are looked for, px.

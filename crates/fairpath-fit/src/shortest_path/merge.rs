@@ -98,7 +98,6 @@ pub(crate) fn merge(chain: &mut Chain, effort: Effort) -> Option<Measured> {
         // An exact penalty must outweigh what a gap can gain.
         let price = 2.0 * plan.pull;
         let merit = 0.5 * now.energy + price * (misfit - SMALL_GAP).max(0.0);
-        if std::env::var("FPDBG").is_ok() {
             eprintln!(
                 "round E={} merit={merit} price={price} misfit={misfit} rel={relative} gap={:?} first={:?} mult={:?}",
                 now.energy,
@@ -167,7 +166,6 @@ fn join_exactly(chain: &mut Chain, closure: &Closure, held: &mut [Held]) -> Opti
         for normal in &mut now.normals {
             normal.gradient = [0.0; Q];
         }
-        if std::env::var("FPDBG").is_ok() {
             eprintln!(
                 "close E={} gaps={} misfit={} gap={:?} held={:?}",
                 now.energy,

@@ -28,6 +28,7 @@ pub(crate) fn fit(
     observer: &mut dyn Observer,
     stages: Option<&mut Stages>,
 ) -> Result<Fit, FitError> {
+    options.validate()?;
     observer.step(Step::Preprocess);
     let cleaned = clean(&stroke.points, options.pixel_size)?;
     let track = prepare(&cleaned, options);
@@ -116,7 +117,29 @@ fn restored(s: &Segment, cleaned: &Cleaned) -> Segment {
     }
 }
 
-fn describe(_report: &mut Report, _spline: &Spline, _stroke: &Stroke, _options: &FitOptions) {}
+/// Measures the curve against the stroke's own points.
+fn describe(report: &mut Report, spline: &Spline, stroke: &Stroke, options: &FitOptions) {
+    let (mut largest, mut squares) = (0.0_f64, 0.0);
+    for &point in &stroke.points {
+        let d = spline.nearest(point).distance;
+        largest = largest.max(d);
+        squares += d * d;
+    }
+    report.max_deviation = largest;
+    report.rms_deviation = (squares / stroke.points.len() as f64).sqrt();
+    let flat = FLAT / options.pixel_size;
+    let ends = spline.segments().iter().flat_map(|s| [s.kappa0, s.kappa1]).filter(|k| k.abs() > flat);
+    let mut sign = 0.0;
+    for kappa in ends {
+        if sign * kappa < 0.0 {
+            report.inflections += 1;
+        }
+        sign = kappa.signum();
+    }
+}
+
+/// Curvature that has no sign, radians per px.
+const FLAT: f64 = 1e-9;
 
 fn stages(graph: &Graph, path: Option<&Path>, track: &Track, cleaned: &Cleaned) -> Stages {
     let n = track.turn + usize::from(track.shape == Shape::Open);
