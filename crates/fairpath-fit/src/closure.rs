@@ -67,12 +67,18 @@ pub(crate) fn close(points: &[Vec2], options: &FitOptions) -> Option<Closed> {
     let along = if ahead.hypot2() > 0.0 { ahead * (v.dot(ahead) / ahead.hypot2()) } else { Vec2::ZERO };
     let bridged = v.dot(ahead) < 0.0 && v.dot(ahead).powi(2) > 0.5 * v.hypot2() * ahead.hypot2();
     let spread = if bridged { v - along } else { v };
+    if options.closed == Closing::Auto && spread.hypot2() > WIDEST_SPREAD * WIDEST_SPREAD {
+        return None;
+    }
     let mut moved: Vec<Vec2> = turn.points.iter().zip(&turn.s).map(|(p, s)| *p + spread * (0.5 - s / total)).collect();
     if !bridged || distance(moved[0], moved[m - 1]) < 0.5 {
         moved.pop();
     }
     Some(Closed { points: moved, trimmed: i + n - 1 - j })
 }
+
+/// Ends that pass each other at more than this were not meant to meet, px: spreading the gap would move both by half of it.
+const WIDEST_SPREAD: f64 = 9.0;
 
 /// Points that are cut off lie at most this far from what stays, px, and at most this share of the stroke's length.
 const STRAY_PX: f64 = 8.0;

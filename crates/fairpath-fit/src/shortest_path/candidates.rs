@@ -61,7 +61,9 @@ pub(crate) fn penalty(error: f64, options: &FitOptions) -> f64 {
 #[inline]
 pub(crate) fn deviation(energy: f64, weight: f64, largest: f64, options: &FitOptions) -> f64 {
     match options.deviation {
-        Deviation::Rms => 2.0 * (energy / weight.max(1e-9)).sqrt(),
+        Deviation::Rms if largest <= options.max_error => 2.0 * (energy / weight.max(1e-9)).sqrt(),
+        // Beyond the cutoff it is the farthest point that counts: a hook at the end of a long line must not drown in it.
+        Deviation::Rms => largest,
         Deviation::Max => largest,
     }
 }
@@ -117,7 +119,8 @@ const PATIENCE: usize = 2;
 
 /// A candidate whose deviation costs more than this is discarded: two of the dearest kind would serve in its place.
 fn hopeless(options: &FitOptions) -> f64 {
-    let dearest = [options.line_cost, options.arc_cost, options.clothoid_cost].into_iter().flatten().fold(0.0, f64::max);
+    let dearest =
+        [options.line_cost, options.arc_cost, options.clothoid_cost].into_iter().flatten().fold(0.0, f64::max);
     2.0 * dearest + HOPELESS_MARGIN
 }
 

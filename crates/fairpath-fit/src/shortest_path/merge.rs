@@ -98,14 +98,6 @@ pub(crate) fn merge(chain: &mut Chain, effort: Effort) -> Option<Measured> {
         // An exact penalty must outweigh what a gap can gain.
         let price = 2.0 * plan.pull;
         let merit = 0.5 * now.energy + price * (misfit - SMALL_GAP).max(0.0);
-            eprintln!(
-                "round E={} merit={merit} price={price} misfit={misfit} rel={relative} gap={:?} first={:?} mult={:?}",
-                now.energy,
-                closure.gap(&chain.pieces),
-                plan.first,
-                plan.multipliers
-            );
-        }
         let old = chain.pieces.clone();
         let mut step = 1.0;
         let mut gain = None;
@@ -165,17 +157,6 @@ fn join_exactly(chain: &mut Chain, closure: &Closure, held: &mut [Held]) -> Opti
         let mut now = chain.measure();
         for normal in &mut now.normals {
             normal.gradient = [0.0; Q];
-        }
-            eprintln!(
-                "close E={} gaps={} misfit={} gap={:?} held={:?}",
-                now.energy,
-                gaps(chain),
-                closure.misfit(&chain.pieces),
-                closure.gap(&chain.pieces),
-                held.iter()
-                    .map(|h| h.iter().map(|&x| if x { 'x' } else { '.' }).collect::<String>())
-                    .collect::<Vec<_>>()
-            );
         }
         let plan = backward(chain, &now, JOINING * (now.energy + 1.0), closure, held)?;
         let old = chain.pieces.clone();
