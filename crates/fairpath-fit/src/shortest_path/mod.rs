@@ -19,7 +19,7 @@ use graph::{Graph, Node, Path};
 use merge::{Effort, merge};
 
 /// Effort of the final merge.
-const FINAL: Effort = Effort { rounds: 30, tolerance: 1e-4 };
+const FINAL: Effort = Effort { rounds: 14, tolerance: 1e-3 };
 
 /// Fits a stroke.
 pub(crate) fn fit(
