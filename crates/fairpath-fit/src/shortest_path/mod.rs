@@ -26,7 +26,7 @@ pub(crate) fn fit(
     stroke: &Stroke,
     options: &FitOptions,
     observer: &mut dyn Observer,
-    stages: Option<&mut Stages>,
+    mut stages: Option<&mut Stages>,
 ) -> Result<Fit, FitError> {
     options.validate()?;
     observer.step(Step::Preprocess);
@@ -39,27 +39,19 @@ pub(crate) fn fit(
             text: format!("the ends of the closed stroke overshoot: {} points were cut off", track.trimmed),
         });
     }
-    observer.step(Step::Candidates);
-    let candidates = candidates::candidates(&track, options);
-    observer.step(Step::Graph);
-    let mut graph = Graph::new(&candidates, &track, options);
-    observer.step(Step::Search);
-    let found = search::search(&mut graph, &track, options);
-    observer.step(Step::Merge);
     let mut report = Report {
         points: stroke.points.len(),
         samples: track.turn + usize::from(track.shape == Shape::Open),
-        nodes: graph.nodes.len(),
-        edges: graph.computed,
         ..Report::default()
     };
-    let mut merged = None;
-    if let Some((path, validations)) = &found {
-        report.cost = path.cost;
-        report.validations = *validations;
-        merged = merge_path(&graph, path, &track, options);
-    }
-    let (segments, joins, closed) = merged.unwrap_or_else(|| {
+    let parts = attempt(&track, &cleaned, options, observer, &mut report, stages.as_deref_mut()).or_else(|| {
+        warnings.push(Warning {
+            code: "loosened".into(),
+            text: "no curve keeps to the options everywhere; joins and deviations were allowed that they forbid".into(),
+        });
+        attempt(&track, &cleaned, &loosened(options), observer, &mut report, stages)
+    });
+    let (segments, joins, closed) = parts.unwrap_or_else(|| {
         warnings.push(Warning {
             code: "fell-back-to-polyline".into(),
             text: "no fair curve was found; the stroke is given as a polyline".into(),
@@ -69,11 +61,47 @@ pub(crate) fn fit(
     let segments: Vec<Segment> = segments.iter().map(|s| restored(s, &cleaned)).collect();
     let spline = Spline::new(segments, joins, closed).unwrap_or_else(|e| panic!("{e}"));
     describe(&mut report, &spline, stroke, options);
-    if let Some(stages) = stages {
-        *stages = self::stages(&graph, found.as_ref().map(|f| &f.0), &track, &cleaned);
-    }
     observer.step(Step::Done);
     Ok(Fit { spline, report, warnings })
+}
+
+/// Sections 3.3 to 3.6 with the given options; nothing if they allow no curve.
+fn attempt(
+    track: &Track,
+    cleaned: &Cleaned,
+    options: &FitOptions,
+    observer: &mut dyn Observer,
+    report: &mut Report,
+    stages: Option<&mut Stages>,
+) -> Option<Parts> {
+    observer.step(Step::Candidates);
+    let candidates = candidates::candidates(track, options);
+    observer.step(Step::Graph);
+    let mut graph = Graph::new(&candidates, track, options);
+    observer.step(Step::Search);
+    let found = search::search(&mut graph, track, options);
+    observer.step(Step::Merge);
+    report.nodes = graph.nodes.len();
+    report.edges = graph.computed;
+    if let Some(stages) = stages {
+        *stages = self::stages(&graph, found.as_ref().map(|f| &f.0), track, cleaned);
+    }
+    let (path, validations) = found?;
+    report.cost = path.cost;
+    report.validations = validations;
+    merge_path(&graph, &path, track, options)
+}
+
+/// Options under which every stroke has a curve that is not far off: what was forbidden is dear instead.
+fn loosened(options: &FitOptions) -> FitOptions {
+    FitOptions {
+        max_error: 2.0 * options.max_error,
+        max_join_error: 2.0 * options.max_join_error,
+        error_cost: 0.25 * options.error_cost,
+        g1_cost: options.g1_cost.or(Some(40.0)),
+        g0_cost: options.g0_cost.or(Some(80.0)),
+        ..options.clone()
+    }
 }
 
 type Parts = (Vec<Segment>, Vec<Continuity>, bool);
