@@ -32,6 +32,8 @@ pub(crate) fn fit(
     observer.step(Step::Preprocess);
     let cleaned = clean(&stroke.points, options.pixel_size)?;
     let track = prepare(&cleaned, options);
+    let length = track.data[track.samples[track.turn]].s;
+    let options = &FitOptions { free_error: options.free_error.min(options.free_share * length), ..options.clone() };
     let mut warnings = Vec::new();
     if track.trimmed > 0 {
         warnings.push(Warning {
