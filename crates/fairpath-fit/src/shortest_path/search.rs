@@ -89,7 +89,7 @@ fn verified(
 const ROUNDS_NEARBY: usize = 12;
 
 /// Samples before a join that got dearer, within which distances are repaired at once.
-const REPAIR_REACH: usize = 40;
+const REPAIR_REACH: usize = 15;
 
 /// Verifies the joins of a path; the nodes whose onward joins got dearer.
 fn reprice(graph: &mut Graph, path: &Path, track: &Track, options: &FitOptions, verifications: &mut usize) -> Vec<u32> {
