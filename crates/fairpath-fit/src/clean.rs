@@ -1,6 +1,7 @@
 //! From a stroke as the device gave it to a polyline in pixels: finite, without repeated points, near the origin, and never
 //! denser than the fit can use.
 
+use crate::polyline::Polyline;
 use crate::result::FitError;
 use fairpath_curve::{Point, Vec2};
 
@@ -67,7 +68,8 @@ pub(crate) fn clean(points: &[Point], pixel_size: f64) -> Result<Cleaned, FitErr
         }
     }
     let grain = grain(&distinct);
-    Ok(Cleaned { points: thin(&distinct), origin, scale: pixel_size, grain })
+    let points = thin(&smoothed(distinct, AVERAGED * grain));
+    Ok(Cleaned { points, origin, scale: pixel_size, grain })
 }
 
 /// Drawings larger than this cannot be resolved in double precision at a thousandth of a pixel, px.
@@ -96,6 +98,36 @@ fn grain(points: &[Vec2]) -> f64 {
     let mut lengths: Vec<f64> = edges.iter().map(|e| e.hypot2().sqrt()).collect();
     let low = lengths.len() / 10;
     *lengths.select_nth_unstable_by(low, f64::total_cmp).1
+}
+
+/// Length on each side over which a staircase is averaged, in its steps.
+const AVERAGED: f64 = 1.25;
+
+/// The polyline averaged over the length `reach` on each side of every vertex, less near the ends, which stay.
+fn smoothed(points: Vec<Vec2>, reach: f64) -> Vec<Vec2> {
+    if reach == 0.0 {
+        return points;
+    }
+    let line = Polyline::new(points);
+    let n = line.points.len();
+    // Integral of position from the start to each vertex.
+    let mut sums = vec![Vec2::ZERO; n];
+    for i in 1..n {
+        sums[i] = sums[i - 1] + (line.points[i] + line.points[i - 1]) * (0.5 * (line.s[i] - line.s[i - 1]));
+    }
+    let integral = |s: f64| {
+        let edge = line.s.partition_point(|&v| v <= s).clamp(1, n - 1) - 1;
+        let end = line.at(s, &mut edge.clone());
+        sums[edge] + (line.points[edge] + end) * (0.5 * (s - line.s[edge]))
+    };
+    let length = line.length();
+    (0..n)
+        .map(|i| {
+            let s = line.s[i];
+            let half = reach.min(s).min(length - s);
+            if half > 0.0 { (integral(s + half) - integral(s - half)) / (2.0 * half) } else { line.points[i] }
+        })
+        .collect()
 }
 
 /// Fewer edges than this tell nothing of a lattice.

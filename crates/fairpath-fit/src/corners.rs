@@ -13,11 +13,15 @@ use fairpath_curve::{Vec2, trig};
 /// Distance of the evenly spaced points on which corners are looked for, px.
 const SPACING: f64 = 2.0;
 
+/// Strokes longer than this are looked at with the full neighbourhoods, px; those of shorter ones shrink to this share at least.
+const FULL_SIZE: f64 = 150.0;
+const FINEST: f64 = 0.45;
+
 /// More points than this are not looked at: the spacing grows instead.
 const MOST_POINTS: f64 = 40_000.0;
 
 /// Tremor that comes with steps of a given size, as a share of it, and the smallest neighbourhood in such steps.
-const GRAIN_NOISE: f64 = 0.3;
+const GRAIN_NOISE: f64 = 0.35;
 const GRAIN_WINDOW: f64 = 4.5;
 
 /// Share of the least corner angle that must show in the narrowest neighbourhood before a place is looked at closely.
@@ -26,15 +30,17 @@ const NARROW_SHARE: f64 = 0.5;
 /// Arc lengths of the corners, increasing; the ends of an open stroke are not among them.
 pub(crate) fn corners(line: &Polyline, closed: bool, grain: f64, options: &FitOptions) -> Vec<f64> {
     let length = line.length();
-    let count = round((length / SPACING).min(MOST_POINTS)).max(1.0) as usize;
+    // What is small is drawn finely: its corners are looked for in smaller neighbourhoods.
+    let fineness = (length / FULL_SIZE).clamp(FINEST, 1.0);
+    let count = round((length / (fineness * SPACING)).min(MOST_POINTS)).max(1.0) as usize;
     let spacing = length / count as f64;
     let mut hint = 0;
     let points: Vec<Vec2> = (0..=count).map(|i| line.at(spacing * i as f64, &mut hint)).collect();
     let n = if closed { count } else { count + 1 };
-    let noise = options.corner_noise.max(GRAIN_NOISE * grain);
+    let noise = (fineness * options.corner_noise).max(GRAIN_NOISE * grain);
     let mut found: Vec<Sighting> = Vec::new();
     let mut run: Vec<Datum> = Vec::new();
-    let narrowest = options.corner_windows()[3].max(GRAIN_WINDOW * grain);
+    let narrowest = (fineness * options.corner_windows()[3]).max(GRAIN_WINDOW * grain);
     let narrow = (round(narrowest / spacing) as isize).max(MIN_SIDE as isize);
     for i in 0..n {
         // A corner turns within a few pixels what it turns at all.
@@ -48,7 +54,7 @@ pub(crate) fn corners(line: &Polyline, closed: bool, grain: f64, options: &FitOp
         }
         for window in options.corner_windows() {
             // A neighbourhood of a few steps of a staircase shows nothing but steps.
-            let k = round(window.max(GRAIN_WINDOW * grain) / spacing) as usize;
+            let k = round((fineness * window).max(GRAIN_WINDOW * grain) / spacing) as usize;
             let (left, right) = if closed { (k, k) } else { (k.min(i), k.min(n - 1 - i)) };
             // A side cut short by the stroke's end tells about as much as a smaller window does.
             if k < MIN_SIDE || 2 * left.min(right) < k.max(2 * MIN_SIDE) || (closed && 2 * k >= n) {
@@ -62,7 +68,7 @@ pub(crate) fn corners(line: &Polyline, closed: bool, grain: f64, options: &FitOp
     }
     // The strongest stays. What was seen through a window that holds a stronger corner was that corner, seen from aside.
     found.sort_by(|a, b| b.strength.total_cmp(&a.strength).then(a.place.cmp(&b.place)));
-    let least = (options.corner_distance / spacing) as usize;
+    let least = (fineness * options.corner_distance / spacing) as usize;
     let mut kept: Vec<usize> = Vec::new();
     for sighting in found {
         let near = |&j: &usize| {

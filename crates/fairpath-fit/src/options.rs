@@ -165,6 +165,9 @@ pub struct FitOptions {
     /// Primitives shorter than this cost extra: l_min of section 3.4.
     #[schemars(extend("unit" = "px"))]
     pub short_length: f64,
+    /// Largest share of the stroke's length that `free_error` may be: a small letter is drawn more finely. 1 leaves the paper's rule.
+    #[schemars(extend("unit" = "1"))]
+    pub free_share: f64,
     /// Cost of an inflection (sections 3.4 and 3.8).
     #[schemars(extend("unit" = "cost"))]
     pub inflection_cost: f64,
@@ -204,8 +207,8 @@ impl FitOptions {
             closed: Closing::Auto,
             closing_gap: 15.0,
             corner_angle: 38.0,
-            corner_score: 2.0,
-            corner_share: 0.65,
+            corner_score: 3.0,
+            corner_share: 0.75,
             corner_noise: 0.5,
             corner_window: 26.0,
             corner_distance: 12.0,
@@ -224,11 +227,12 @@ impl FitOptions {
             g0_cost: None,
             g1_cost: None,
             g2_cost: Some(0.0),
-            error_cost: 5.0,
+            error_cost: 4.5,
             deviation: Deviation::Rms,
             free_error: 1.0,
             shortness_cost: 0.5,
             short_length: 30.0,
+            free_share: 0.01,
             inflection_cost: 20.0,
             g2_overlap: 2,
             g1_overlap: 1,
@@ -241,7 +245,7 @@ impl FitOptions {
         match preset {
             Preset::Default => default,
             Preset::Accurate => {
-                Self { error_cost: 5.0, shortness_cost: 1.0, max_error: 2.0, points_per_circle: 30.0, ..default }
+                Self { error_cost: 4.5, shortness_cost: 1.0, max_error: 2.0, points_per_circle: 30.0, ..default }
             }
             Preset::Loose => Self { error_cost: 0.2, max_error: 8.0, ..default },
             Preset::LinesArcs => Self {
@@ -276,7 +280,7 @@ impl FitOptions {
         let (share, sampled, circle) = (within(0.0, 1.0), within(0.25, 1e6), within(4.0, 200.0));
         let (window, angle, falloff) = (within(4.0, 1000.0), within(1.0, 179.0), within(0.01, 10.0));
         let (pixel, limit) = (within(1e-12, 1e12), within(0.01, 1e4));
-        let rules: [Rule; 25] = [
+        let rules: [Rule; 26] = [
             ("pixel_size", self.pixel_size, &pixel, "1e-12 to 1e12"),
             ("closing_gap", self.closing_gap, &not_negative, "0 or more"),
             ("corner_angle", self.corner_angle, &angle, "1 to 179 degrees"),
@@ -298,6 +302,7 @@ impl FitOptions {
             ("free_error", self.free_error, &not_negative, "0 or more"),
             ("shortness_cost", self.shortness_cost, &not_negative, "0 or more"),
             ("short_length", self.short_length, &not_negative, "0 or more"),
+            ("free_share", self.free_share, &not_negative, "0 or more"),
             ("inflection_cost", self.inflection_cost, &not_negative, "0 or more"),
             ("transition_peak", self.transition_peak, &not_negative, "0 or more"),
             ("max_join_error", self.max_join_error, &positive, "more than 0"),

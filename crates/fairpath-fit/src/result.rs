@@ -103,6 +103,12 @@ pub enum FitError {
         /// Which point, from 0.
         index: usize,
     },
+    /// Not even a polyline could be made of the stroke.
+    #[error("no curve could be made of the stroke's {points} points; check its coordinates and the pixel size")]
+    Unfittable {
+        /// Points given.
+        points: usize,
+    },
     /// An option is out of its range.
     #[error("option {name} = {value} is out of range: {expected}")]
     BadOption {
@@ -123,6 +129,7 @@ impl FitError {
             Self::TooShort { .. } => "too-short",
             Self::TooLarge { .. } => "too-large",
             Self::NotFinite { .. } => "not-finite",
+            Self::Unfittable { .. } => "unfittable",
             Self::BadOption { .. } => "bad-option",
         }
     }

@@ -61,8 +61,11 @@ pub(crate) struct Walker {
     second: Vec2,
 }
 
+/// Most that one step towards a foot may turn, radians.
+const LARGEST_TURN: f64 = 1.2;
+
 /// A foot is found when the point lies across the curve to within this, px.
-const NEAR_ENOUGH: f64 = 0.1;
+const NEAR_ENOUGH: f64 = 0.3;
 
 /// Sine and cosine of the small angles between data points: error below 1e-10 up to half a radian.
 #[inline]
@@ -159,15 +162,11 @@ impl Walker {
             } else {
                 straight / (1.0 + 0.28 * t2)
             };
-            let limit = 1.2 / (self.kappa.abs() + (self.sharpness * ds).abs() + 1e-9);
-            // Unlike clamp, this lets a NaN through instead of panicking; the caller sees it in the energy.
-            ds = if ds > limit {
-                limit
-            } else if ds < -limit {
-                -limit
-            } else {
-                ds
-            };
+            // No step turns by more than this; a NaN passes, and the caller sees it in the energy.
+            let turn = (self.kappa.abs() + (self.sharpness * ds).abs()) * ds.abs();
+            if turn > LARGEST_TURN {
+                ds *= LARGEST_TURN / turn;
+            }
             self.advance(ds);
         }
         self.offset(point)

@@ -98,9 +98,16 @@ pub(crate) fn candidates(track: &Track, options: &FitOptions) -> Vec<Candidate> 
         .collect();
         // A primitive may not run through a corner, nor more than once around.
         let stop = (first + 1..=end).find(|&j| track.corner[j]).unwrap_or(end).min(first + track.turn);
+        let begins_here = first == 0 && track.shape != Shape::Ring || track.corner[first];
+        let mut before = first;
         for last in first + 1..=stop {
+            let span = last - first;
+            if span % stride(span) != 0 && !begins_here && last != stop {
+                continue;
+            }
             let data = track.run(first, last);
-            let fresh = track.samples[last] - track.samples[last - 1];
+            let fresh = track.samples[last] - track.samples[before];
+            before = last;
             for family in &mut families {
                 if family.misses < PATIENCE && last - first >= family.fewest {
                     extend(family, data, fresh, (first, last), track, options, &mut out);
@@ -112,6 +119,16 @@ pub(crate) fn candidates(track: &Track, options: &FitOptions) -> Vec<Candidate> 
         }
     }
     out
+}
+
+/// Long runs are fitted only in every second and fourth length: where exactly a long primitive ends matters less. The rule knows only
+/// the length, so that it is the same in both directions.
+fn stride(span: usize) -> usize {
+    match span {
+        0..=12 => 1,
+        13..=24 => 2,
+        _ => 4,
+    }
 }
 
 /// A kind of primitive is given up after this many runs in sequence that it does not fit.

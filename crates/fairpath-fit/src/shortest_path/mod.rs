@@ -19,19 +19,69 @@ use graph::{Graph, Node, Path};
 use merge::{Effort, merge};
 
 /// Effort of the final merge.
-const FINAL: Effort = Effort { rounds: 30, tolerance: 1e-4 };
+const FINAL: Effort = Effort { rounds: 14, tolerance: 1e-3 };
 
 /// Fits a stroke.
 pub(crate) fn fit(
     stroke: &Stroke,
     options: &FitOptions,
     observer: &mut dyn Observer,
-    stages: Option<&mut Stages>,
+    mut stages: Option<&mut Stages>,
 ) -> Result<Fit, FitError> {
     options.validate()?;
     observer.step(Step::Preprocess);
     let cleaned = clean(&stroke.points, options.pixel_size)?;
-    let track = prepare(&cleaned, options);
+    let mut fit = solve(stroke, &cleaned, options, observer, stages.as_deref_mut())?;
+    let strays = |f: &Fit| f.report.max_deviation > STRAY * options.max_error * options.pixel_size;
+    if strays(&fit) {
+        // Somewhere the costs accepted what nobody would: the stroke is fitted once more, more closely.
+        let mut own = Stages::default();
+        let close = solve(stroke, &cleaned, &closer(options), observer, stages.is_some().then_some(&mut own))?;
+        if close.report.max_deviation < fit.report.max_deviation {
+            fit = close;
+            if let Some(stages) = stages {
+                *stages = own;
+            }
+        }
+    }
+    if strays(&fit) {
+        fit.warnings.push(Warning {
+            code: "far-from-stroke".into(),
+            text: format!("the curve is up to {:.3} away from the stroke", fit.report.max_deviation),
+        });
+    }
+    observer.step(Step::Done);
+    Ok(fit)
+}
+
+/// A curve further than this many times `max_error` from its stroke is fitted again.
+const STRAY: f64 = 1.4;
+
+/// Options that stay closer to the stroke.
+fn closer(options: &FitOptions) -> FitOptions {
+    FitOptions {
+        error_cost: 4.0 * options.error_cost,
+        inflection_cost: 0.25 * options.inflection_cost,
+        shortness_cost: 0.25 * options.shortness_cost,
+        corner_score: 0.5 * options.corner_score,
+        corner_noise: 0.5 * options.corner_noise,
+        max_error: 0.7 * options.max_error,
+        ..options.clone()
+    }
+}
+
+/// One pass of the whole method.
+fn solve(
+    stroke: &Stroke,
+    cleaned: &Cleaned,
+    options: &FitOptions,
+    observer: &mut dyn Observer,
+    mut stages: Option<&mut Stages>,
+) -> Result<Fit, FitError> {
+    observer.step(Step::Preprocess);
+    let track = prepare(cleaned, options);
+    let length = track.data[track.samples[track.turn]].s;
+    let options = &FitOptions { free_error: options.free_error.min(options.free_share * length), ..options.clone() };
     let mut warnings = Vec::new();
     if track.trimmed > 0 {
         warnings.push(Warning {
@@ -39,41 +89,71 @@ pub(crate) fn fit(
             text: format!("the ends of the closed stroke overshoot: {} points were cut off", track.trimmed),
         });
     }
-    observer.step(Step::Candidates);
-    let candidates = candidates::candidates(&track, options);
-    observer.step(Step::Graph);
-    let mut graph = Graph::new(&candidates, &track, options);
-    observer.step(Step::Search);
-    let found = search::search(&mut graph, &track, options);
-    observer.step(Step::Merge);
     let mut report = Report {
         points: stroke.points.len(),
         samples: track.turn + usize::from(track.shape == Shape::Open),
-        nodes: graph.nodes.len(),
-        edges: graph.computed,
         ..Report::default()
     };
-    let mut merged = None;
-    if let Some((path, validations)) = &found {
-        report.cost = path.cost;
-        report.validations = *validations;
-        merged = merge_path(&graph, path, &track, options);
-    }
-    let (segments, joins, closed) = merged.unwrap_or_else(|| {
+    let restore = |(segments, joins, closed): Parts| {
+        Spline::new(segments.iter().map(|s| restored(s, cleaned)).collect(), joins, closed).ok()
+    };
+    let strict = attempt(&track, cleaned, options, observer, &mut report, stages.as_deref_mut()).and_then(restore);
+    let spline = strict.or_else(|| {
+        warnings.push(Warning {
+            code: "loosened".into(),
+            text: "no curve keeps to the options everywhere; joins and deviations were allowed that they forbid".into(),
+        });
+        attempt(&track, cleaned, &loosened(options), observer, &mut report, stages).and_then(restore)
+    });
+    let spline = spline.or_else(|| {
         warnings.push(Warning {
             code: "fell-back-to-polyline".into(),
             text: "no fair curve was found; the stroke is given as a polyline".into(),
         });
-        polyline(&track)
+        restore(polyline(&track))
     });
-    let segments: Vec<Segment> = segments.iter().map(|s| restored(s, &cleaned)).collect();
-    let spline = Spline::new(segments, joins, closed).unwrap_or_else(|e| panic!("{e}"));
+    let spline = spline.ok_or(FitError::Unfittable { points: stroke.points.len() })?;
     describe(&mut report, &spline, stroke, options);
-    if let Some(stages) = stages {
-        *stages = self::stages(&graph, found.as_ref().map(|f| &f.0), &track, &cleaned);
-    }
-    observer.step(Step::Done);
     Ok(Fit { spline, report, warnings })
+}
+
+/// Sections 3.3 to 3.6 with the given options; nothing if they allow no curve.
+fn attempt(
+    track: &Track,
+    cleaned: &Cleaned,
+    options: &FitOptions,
+    observer: &mut dyn Observer,
+    report: &mut Report,
+    stages: Option<&mut Stages>,
+) -> Option<Parts> {
+    observer.step(Step::Candidates);
+    let candidates = candidates::candidates(track, options);
+    observer.step(Step::Graph);
+    let mut graph = Graph::new(&candidates, track, options);
+    observer.step(Step::Search);
+    let found = search::search(&mut graph, track, options);
+    observer.step(Step::Merge);
+    report.nodes = graph.nodes.len();
+    report.edges = graph.computed;
+    if let Some(stages) = stages {
+        *stages = self::stages(&graph, found.as_ref().map(|f| &f.0), track, cleaned);
+    }
+    let (path, validations) = found?;
+    report.cost = path.cost;
+    report.validations = validations;
+    merge_path(&graph, &path, track, options)
+}
+
+/// Options under which every stroke has a curve that is not far off: what was forbidden is dear instead.
+fn loosened(options: &FitOptions) -> FitOptions {
+    FitOptions {
+        max_error: 2.0 * options.max_error,
+        max_join_error: 2.0 * options.max_join_error,
+        error_cost: 0.25 * options.error_cost,
+        g1_cost: options.g1_cost.or(Some(40.0)),
+        g0_cost: options.g0_cost.or(Some(80.0)),
+        ..options.clone()
+    }
 }
 
 type Parts = (Vec<Segment>, Vec<Continuity>, bool);

@@ -23,16 +23,21 @@ const NEIGHBOURS: usize = 2;
 /// What a change must gain, in units of cost: less would be noise.
 const WORTHWHILE: f64 = 0.5;
 
+/// What a change must gain if the joins cost nothing before it is tried.
+const PROMISING: f64 = 3.0;
+
 /// Most passes over the chain.
 const PASSES: usize = 3;
 
 /// Improves the chain; gives its measurement.
 pub(crate) fn refine(chain: &mut Chain, measured: Measured, options: &FitOptions, last: Effort) -> Option<Measured> {
     let mut measured = measured;
+    // Pieces whose surroundings have not changed since they were last looked at need no second look.
+    let mut fresh = vec![true; chain.pieces.len()];
     for _ in 0..PASSES {
         let before = total(chain, &measured, options);
         let backup = (chain.pieces.clone(), chain.joins.clone());
-        if !pass(chain, &mut measured, options) {
+        if !pass(chain, &mut measured, &mut fresh, options) {
             break;
         }
         match merge(chain, last) {
@@ -76,19 +81,22 @@ fn cost(pieces: &[Piece], errors: impl Iterator<Item = f64>, options: &FitOption
 }
 
 /// Tries all changes once along the chain; whether any was made.
-fn pass(chain: &mut Chain, measured: &mut Measured, options: &FitOptions) -> bool {
+fn pass(chain: &mut Chain, measured: &mut Measured, fresh: &mut Vec<bool>, options: &FitOptions) -> bool {
+    let mut next = vec![false; fresh.len()];
     let mut changed = false;
     let mut k = 0;
     while k < chain.pieces.len() {
-        if improve_at(chain, measured, k, options) {
-            changed = true;
-        } else {
-            k += 1;
-        }
-        if measured.normals.len() != chain.pieces.len() {
-            return changed;
+        let look = fresh[k] || fresh.get(k + 1).is_some_and(|f| *f);
+        match if look { improve_at(chain, measured, k, options) } else { None } {
+            Some((window, count)) => {
+                changed = true;
+                fresh.splice(window.clone(), vec![true; count]);
+                next.splice(window, vec![true; count]);
+            }
+            None => k += 1,
         }
     }
+    *fresh = next;
     changed
 }
 
@@ -97,27 +105,35 @@ struct Change {
     range: Range<usize>,
     with: Vec<Piece>,
     level: Continuity,
+    /// What it would gain if the joins cost nothing.
+    promise: f64,
 }
 
-fn improve_at(chain: &mut Chain, measured: &mut Measured, k: usize, options: &FitOptions) -> bool {
-    let mut best: Option<(f64, Trial)> = None;
-    for change in changes(chain, measured, k, options) {
+/// Makes the first change at a piece that gains; the pieces that it replaced, and by how many.
+fn improve_at(
+    chain: &mut Chain,
+    measured: &mut Measured,
+    k: usize,
+    options: &FitOptions,
+) -> Option<(Range<usize>, usize)> {
+    let mut changes = changes(chain, measured, k, options);
+    changes.sort_by(|a, b| b.promise.total_cmp(&a.promise));
+    for change in changes {
         if !fits(chain, &change) {
             continue;
         }
         if let Some((gain, trial)) = tried(chain, measured, &change, options)
-            && gain > best.as_ref().map_or(WORTHWHILE, |b| b.0)
+            && gain > WORTHWHILE
         {
-            best = Some((gain, trial));
+            let Trial { window, pieces, joins, normals } = trial;
+            let count = pieces.len();
+            chain.pieces.splice(window.clone(), pieces);
+            chain.joins.splice(window.start..window.end - 1, joins);
+            measured.normals.splice(window.clone(), normals);
+            return Some((window, count));
         }
     }
-    let Some((_, trial)) = best else { return false };
-    let Trial { window, pieces, joins, normals } = trial;
-    let inner = window.start..window.end - 1;
-    chain.pieces.splice(window.clone(), pieces);
-    chain.joins.splice(inner, joins);
-    measured.normals.splice(window, normals);
-    true
+    None
 }
 
 /// The changes at a piece that might pay, judged by free fits.
@@ -132,10 +148,11 @@ fn changes(chain: &Chain, measured: &Measured, k: usize, options: &FitOptions) -
         let (a, b) = (&chain.pieces[k], &chain.pieces[k + 1]);
         let data = span(measured, k..k + 2);
         for (kind, price) in kinds {
-            if let (Some(price), Some(piece)) = (price, united(chain, (a, b), kind, data.clone(), options))
-                && both - price - penalty(piece.1, options) > WORTHWHILE
-            {
-                out.push(Change { range: k..k + 2, with: vec![piece.0], level: Continuity::G2 });
+            if let (Some(price), Some(piece)) = (price, united(chain, (a, b), kind, data.clone(), options)) {
+                let promise = both - price - penalty(piece.1, options);
+                if promise > PROMISING {
+                    out.push(Change { range: k..k + 2, with: vec![piece.0], level: Continuity::G2, promise });
+                }
             }
         }
     }
@@ -145,9 +162,11 @@ fn changes(chain: &Chain, measured: &Measured, k: usize, options: &FitOptions) -
         if simplicity(kind) < simplicity(piece.kind)
             && let (Some(price), Some(simpler)) =
                 (price, united(chain, (piece, piece), kind, span(measured, k..k + 1), options))
-            && own - price - penalty(simpler.1, options) > WORTHWHILE
         {
-            out.push(Change { range: k..k + 1, with: vec![simpler.0], level: Continuity::G2 });
+            let promise = own - price - penalty(simpler.1, options);
+            if promise > PROMISING {
+                out.push(Change { range: k..k + 1, with: vec![simpler.0], level: Continuity::G2, promise });
+            }
         }
     }
     // One becomes two.
@@ -164,7 +183,8 @@ fn changes(chain: &Chain, measured: &Measured, k: usize, options: &FitOptions) -
         second.q[..4].copy_from_slice(&at);
         (second.q[KAPPA1], second.q[LENGTH]) = (piece.q[KAPPA1], half);
         if half > 2.0 {
-            out.push(Change { range: k..k + 1, with: vec![first, second], level: Continuity::G2 });
+            let promise = own - 2.0 * price;
+            out.push(Change { range: k..k + 1, with: vec![first, second], level: Continuity::G2, promise });
         }
     }
     out
