@@ -90,6 +90,8 @@ proptest! {
         let drawing = points.len() > 1 && extent(&points) > 2e-3;
         match judged(&Stroke::new("any", points), &options) {
             Ok(_) => prop_assert!(!dot),
+            // A straight stroke that must be closed encloses nothing.
+            Err("unfittable") => prop_assert!(options.closed == Closing::Yes),
             Err(code) => prop_assert!(code == "too-short" && !drawing, "{}", code),
         }
     }
@@ -148,6 +150,15 @@ fn doubled_points_change_nothing() {
     let twice = Stroke::new("twice", once.points.iter().flat_map(|p| [*p, *p]).collect());
     let options = FitOptions::default();
     assert_eq!(fitted(&once, &options).spline, fitted(&twice, &options).spline);
+}
+
+#[test]
+fn a_tremor_of_a_few_thousandths_of_a_pixel_that_ends_where_it_began_is_fitted_or_too_short() {
+    let n = |i: i32| (50.0 + 0.001 * f64::from(i * i % 7), 20.0 - 0.001 * f64::from(i % 3));
+    for count in [8, 22, 43, 64, 300] {
+        let code = judged(&stroke("tremor", (0..count).map(n)), &FitOptions::default()).err();
+        assert!([None, Some("too-short")].contains(&code), "{count} points: {code:?}");
+    }
 }
 
 #[test]
@@ -384,28 +395,44 @@ fn the_polyline_preset_gives_lines_that_meet_at_angles() {
 
 #[test]
 fn the_lines_arcs_preset_gives_lines_and_arcs_that_meet_smoothly_but_at_corners() {
-    let (mut all, mut departing) = (0, 0);
+    let (mut all, mut departing) = (0, Vec::new());
     for stroke in some_strokes() {
         let Some((fit, stages, departs)) = with_stages(&stroke, Preset::LinesArcs) else { continue };
         assert!(kinds(&fit).iter().all(|k| *k != Kind::Clothoid), "{}: {:?}", stroke.name, kinds(&fit));
         all += 1;
-        departing += usize::from(departs);
+        if departs {
+            departing.push(stroke.name);
+            continue;
+        }
         let angles = fit.spline.joins().iter().filter(|j| **j == Continuity::G0).count();
         // A closed stroke with corners starts at one that is not listed.
         let corners = stages.corners.len() + usize::from(fit.spline.is_closed());
-        assert!(departs || angles <= corners, "{}: {angles} angles at {corners} corners", stroke.name);
+        assert!(angles <= corners, "{}: {angles} angles at {corners} corners", stroke.name);
     }
-    assert!(departing * 20 <= all, "{departing} of {all} were not made by the options");
+    assert!(departing.len() * 20 <= all, "{} of {all} were not made by the options: {departing:?}", departing.len());
 }
 
 #[test]
-fn the_clothoids_preset_gives_clothoids_only() {
-    let (mut all, mut departing) = (0, 0);
+fn the_clothoids_preset_gives_clothoids_that_join_with_equal_curvature_but_at_corners() {
+    let (mut all, mut segments, mut straight, mut departing) = (0, 0, 0, Vec::new());
     for stroke in some_strokes() {
-        let Some((fit, _, departs)) = with_stages(&stroke, Preset::Clothoids) else { continue };
+        let Some((fit, stages, departs)) = with_stages(&stroke, Preset::Clothoids) else { continue };
         all += 1;
-        departing += usize::from(departs);
-        assert!(departs || kinds(&fit).iter().all(|k| *k == Kind::Clothoid), "{}: {:?}", stroke.name, kinds(&fit));
+        if departs {
+            // A few pixels hold too few samples to tell a clothoid.
+            if extent(&stroke.points) > 12.0 {
+                departing.push(stroke.name);
+            }
+            continue;
+        }
+        // A clothoid may come out with no curvature at all, where the stroke is straight.
+        segments += kinds(&fit).len();
+        straight += kinds(&fit).iter().filter(|k| **k == Kind::Line).count();
+        assert!(kinds(&fit).iter().all(|k| *k != Kind::Arc), "{}: {:?}", stroke.name, kinds(&fit));
+        let weaker = fit.spline.joins().iter().filter(|j| **j < Continuity::G2).count();
+        let corners = stages.corners.len() + usize::from(fit.spline.is_closed());
+        assert!(weaker <= corners, "{}: {weaker} joins without equal curvature at {corners} corners", stroke.name);
     }
-    assert!(departing * 20 <= all, "{departing} of {all} were not made by the options");
+    assert!(straight * 20 <= segments, "{straight} of {segments} are straight");
+    assert!(departing.len() * 20 <= all, "{} of {all} were not made by the options: {departing:?}", departing.len());
 }

@@ -58,9 +58,8 @@ fn assert_sound(fit: &Fit, stroke: &Stroke, options: &FitOptions) {
     }
     assert_eq!(fit.report.points, stroke.points.len(), "{name}");
     assert_eq!(fit.report.inflections, inflections(spline, options), "{name}: inflections");
-    let (largest, rms, step) = deviation(spline, &stroke.points);
-    // A chord of an arc of `STEP` radians is nearer than this to it.
-    let tolerance = STEP / 8.0 * step + 1e-9 * size;
+    let (largest, rms, sagitta) = deviation(spline, &stroke.points);
+    let tolerance = sagitta + 1e-9 * size;
     let report = &fit.report;
     assert!((report.max_deviation - largest).abs() <= tolerance, "{name}: {} but {largest}", report.max_deviation);
     assert!((report.rms_deviation - rms).abs() <= tolerance, "{name}: {} but {rms}", report.rms_deviation);
@@ -85,24 +84,23 @@ pub(crate) fn extent(points: &[Point]) -> f64 {
     range(|p| p.x).max(range(|p| p.y))
 }
 
-/// Radians that one chord of [`chords`] may span.
+/// Radians that one chord may span.
 const STEP: f64 = 0.02;
 
-/// Chords of a segment of at most [`STEP`] radians.
-fn chords(s: &Segment) -> usize {
+/// Number of chords of a segment of at most [`STEP`] radians, and a bound of how far it is from them.
+fn chords(s: &Segment) -> (usize, f64) {
     let turning = s.kappa0.abs().max(s.kappa1.abs()) * s.length;
-    ((turning / STEP).ceil() as usize).clamp(1, 100_000)
+    let n = ((turning / STEP).ceil() as usize).clamp(1, 100_000);
+    (n, 0.13 * s.length * turning / (n * n) as f64)
 }
 
-/// Largest and root mean square distance of the points to chords of the spline, and the longest curved chord.
+/// Largest and root mean square distance of the points to chords of the spline, and how far the chords may be from it.
 fn deviation(spline: &Spline, points: &[Point]) -> (f64, f64, f64) {
     let mut nearest = vec![f64::INFINITY; points.len()];
-    let mut longest = 0.0_f64;
+    let mut off = 0.0_f64;
     for s in spline.segments() {
-        let n = chords(s);
-        if n > 1 {
-            longest = longest.max(s.length / n as f64);
-        }
+        let (n, sagitta) = chords(s);
+        off = off.max(sagitta);
         let mut a = s.start;
         for k in 1..=n {
             let b = s.point_at(s.length * k as f64 / n as f64);
@@ -113,7 +111,7 @@ fn deviation(spline: &Spline, points: &[Point]) -> (f64, f64, f64) {
         }
     }
     let squares: f64 = nearest.iter().map(|d| d * d).sum();
-    (nearest.iter().fold(0.0, |m, d| m.max(*d)), (squares / points.len() as f64).sqrt(), longest)
+    (nearest.iter().fold(0.0, |m, d| m.max(*d)), (squares / points.len() as f64).sqrt(), off)
 }
 
 fn to_chord(p: Point, a: Point, b: Point) -> f64 {
