@@ -28,11 +28,6 @@ impl Cleaned {
     pub(crate) fn restore(&self, p: Vec2) -> Point {
         self.origin + p * self.scale
     }
-
-    /// A position of the stroke's frame in pixels.
-    pub(crate) fn localize(&self, p: Point) -> Vec2 {
-        (p - self.origin) / self.scale
-    }
 }
 
 /// The stroke's points in pixels.

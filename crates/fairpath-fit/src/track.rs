@@ -12,10 +12,10 @@ use fairpath_curve::Vec2;
 /// The points and samples of a stroke along its arc length, px. Those of a ring are unrolled: they run through several turns.
 #[derive(Clone, Debug)]
 pub(crate) struct Track {
-    /// All points that enter fits, samples included.
-    pub(crate) data: Vec<Datum>,
-    /// Which datum each sample is.
-    pub(crate) samples: Vec<usize>,
+    /// All points that enter the final fit, samples included.
+    pub(crate) all: Course,
+    /// The samples and at most one point between two of them: enough to choose by.
+    pub(crate) coarse: Course,
     /// Whether each sample is a corner.
     pub(crate) corner: Vec<bool>,
     /// Number of sample intervals in the stroke, or in one turn of a ring.
@@ -25,15 +25,61 @@ pub(crate) struct Track {
     pub(crate) trimmed: usize,
 }
 
-impl Track {
+/// Points along a track.
+#[derive(Clone, Debug)]
+pub(crate) struct Course {
+    pub(crate) data: Vec<Datum>,
+    /// Which datum each sample is.
+    pub(crate) samples: Vec<usize>,
+}
+
+impl Course {
     /// Where sample `i` is.
     pub(crate) fn sample(&self, i: usize) -> Vec2 {
         self.data[self.samples[i]].point
     }
 
+    /// Arc length along the stroke at sample `i`, px.
+    pub(crate) fn station(&self, i: usize) -> f64 {
+        self.data[self.samples[i]].s
+    }
+
     /// The data from sample `i` to sample `j`, both included.
     pub(crate) fn run(&self, i: usize, j: usize) -> &[Datum] {
         &self.data[self.samples[i]..=self.samples[j]]
+    }
+
+    /// One datum for each stretch between samples, the one nearest to its middle, with the weight of all.
+    fn thinned(&self) -> Self {
+        let mut out = Self { data: Vec::new(), samples: Vec::new() };
+        for (k, &i) in self.samples.iter().enumerate() {
+            out.samples.push(out.data.len());
+            out.data.push(self.data[i]);
+            let Some(&next) = self.samples.get(k + 1) else { break };
+            let middle = 0.5 * (self.data[i].s + self.data[next].s);
+            let between = &self.data[i + 1..next];
+            let apart = |d: &&Datum| (d.s - middle).abs();
+            if let Some(nearest) = between.iter().min_by(|a, b| apart(a).total_cmp(&apart(b))) {
+                let weight = between.iter().map(|d| d.weight).sum();
+                out.data.push(Datum { weight, ..*nearest });
+            }
+        }
+        out
+    }
+
+    /// The same for a ring of given length, unrolled: its last sample is the first of the next turn.
+    fn unrolled(mut self, length: f64) -> Self {
+        let (one_turn, turn) = (self.data.len() - 1, self.samples.len() - 1);
+        for round in 1..TURNS {
+            for i in 1..=one_turn {
+                let datum = self.data[i];
+                self.data.push(Datum { s: datum.s + length * round as f64, ..datum });
+            }
+            for k in 1..=turn {
+                self.samples.push(self.samples[k] + one_turn * round);
+            }
+        }
+        self
     }
 }
 
@@ -120,21 +166,15 @@ fn assemble(line: &Polyline, shape: Shape, bends: &[f64], grain: f64, options: &
         samples.push(data.len());
         data.push(Datum { point: line.at(s, &mut hint), s, weight });
     }
-    if shape == Shape::Ring {
-        // The last sample is the first of the second turn.
-        let one_turn = data.len() - 1;
-        for round in 1..TURNS {
-            for i in 1..=one_turn {
-                let datum = data[i];
-                data.push(Datum { s: datum.s + length * round as f64, ..datum });
-            }
-            for k in 1..=turn {
-                samples.push(samples[k] + one_turn * round);
-                corner.push(false);
-            }
-        }
-    }
-    Track { data, samples, corner, turn, shape, trimmed }
+    let all = Course { data, samples };
+    let coarse = all.thinned();
+    let (all, coarse) = if shape == Shape::Ring {
+        corner.resize(TURNS * turn + 1, false);
+        (all.unrolled(length), coarse.unrolled(length))
+    } else {
+        (all, coarse)
+    };
+    Track { all, coarse, corner, turn, shape, trimmed }
 }
 
 /// Turns through which a ring is unrolled: two neighbours may together cover more than two.

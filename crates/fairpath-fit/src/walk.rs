@@ -26,15 +26,6 @@ pub(crate) struct Datum {
 }
 
 impl Primitive {
-    pub(crate) fn of(segment: &Segment) -> Self {
-        Self {
-            start: segment.start.to_vec2(),
-            heading: segment.heading,
-            kappa: segment.kappa0,
-            sharpness: segment.sharpness(),
-        }
-    }
-
     pub(crate) fn segment(&self, length: f64) -> Segment {
         Segment {
             start: self.start.to_point(),

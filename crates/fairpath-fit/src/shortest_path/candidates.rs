@@ -105,8 +105,8 @@ pub(crate) fn candidates(track: &Track, options: &FitOptions) -> Vec<Candidate> 
             if span % stride(span) != 0 && !begins_here && last != stop {
                 continue;
             }
-            let data = track.run(first, last);
-            let fresh = track.samples[last] - track.samples[before];
+            let data = track.coarse.run(first, last);
+            let fresh = track.coarse.samples[last] - track.coarse.samples[before];
             before = last;
             for family in &mut families {
                 if family.misses < PATIENCE && last - first >= family.fewest {
@@ -317,11 +317,11 @@ fn make(
     let n = family.unknowns;
     let inner = (first + 1).min(last);
     candidate.head[0] = JoinState::at(&walker, tangent, track, first, &inverse, n, primitive);
-    walker.project(track.sample(inner));
+    walker.project(track.coarse.sample(inner));
     candidate.head[1] = JoinState::at(&walker, tangent, track, inner, &inverse, n, primitive);
     let inner = (last - 1).max(first);
-    walker.advance(length - (track.data[track.samples[last]].s - track.data[track.samples[inner]].s) - walker.s);
-    walker.project(track.sample(inner));
+    walker.advance(length - (track.coarse.station(last) - track.coarse.station(inner)) - walker.s);
+    walker.project(track.coarse.sample(inner));
     candidate.tail[1] = JoinState::at(&walker, tangent, track, inner, &inverse, n, primitive);
     walker.advance(length - walker.s);
     candidate.tail[0] = JoinState::at(&walker, tangent, track, last, &inverse, n, primitive);
@@ -382,7 +382,7 @@ impl JoinState {
         let dot = |a: &[f64; 4], b: &[f64; 4]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3];
         Self {
             s,
-            offset: walker.offset(track.sample(sample)),
+            offset: walker.offset(track.coarse.sample(sample)),
             heading: p.heading + s * (p.kappa + 0.5 * p.sharpness * s),
             curvature: walker.kappa,
             covariance: [

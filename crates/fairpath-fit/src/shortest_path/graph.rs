@@ -337,9 +337,13 @@ impl Distances {
                 list.insert(place, node);
             }
             if self.goal != Goal::Around(node) {
-                open.extend(
-                    self.leading_to[node as usize].iter().map(|&i| (self.position(&graph.nodes[i as usize]), i)),
-                );
+                // The nearest source at or after a place decides whether it is within reach.
+                let within = |place: usize| {
+                    sources.get(sources.partition_point(|&s| s < place)).is_some_and(|s| s - place <= reach)
+                };
+                let leading = self.leading_to[node as usize].iter();
+                let places = leading.map(|&i| (self.position(&graph.nodes[i as usize]), i));
+                open.extend(places.filter(|p| within(p.0)));
             }
         }
     }

@@ -361,8 +361,8 @@ fn backward(chain: &Chain, now: &Measured, damping: f64, closure: &Closure, held
                 }
             }
         }
-        let (h, g) = stage(&now.normals[k], &f, &value, extra);
-        value = eliminate(chain, k, h, g, damping, extra, &held[k], &mut laws[k])?;
+        let model = stage(&now.normals[k], &f, &value, extra);
+        value = eliminate(chain, k, model, damping, extra, &held[k], &mut laws[k])?;
     }
     let (first, multipliers) = first_state(chain, &mut value, damping, closure)?;
     for i in 0..closure.count {
@@ -412,8 +412,7 @@ fn stage(
 fn eliminate(
     chain: &Chain,
     k: usize,
-    mut h: [[f64; M]; M],
-    mut g: [f64; M],
+    (mut h, mut g): ([[f64; M]; M], [f64; M]),
     damping: f64,
     extra: usize,
     held: &Held,

@@ -80,7 +80,7 @@ fn solve(
 ) -> Result<Fit, FitError> {
     observer.step(Step::Preprocess);
     let track = prepare(cleaned, options);
-    let length = track.data[track.samples[track.turn]].s;
+    let length = track.all.station(track.turn);
     let options = &FitOptions { free_error: options.free_error.min(options.free_share * length), ..options.clone() };
     let mut warnings = Vec::new();
     if track.trimmed > 0 {
@@ -165,18 +165,24 @@ fn merge_path(graph: &Graph, path: &Path, track: &Track, options: &FitOptions) -
     if track.shape == Shape::Loop {
         joins.push(Continuity::G0);
     }
-    let mut chain: Chain = search::chain(graph.candidates, &nodes, joins, track, closed, options);
-    let measured = merge(&mut chain, FINAL)?;
+    let whole = Some((track.shape, track.turn));
+    let along = |course, joins| -> Chain { search::chain(graph.candidates, &nodes, joins, whole, course, options) };
+    let mut chain = along(&track.all, joins.clone());
     if options.refine {
-        refine::refine(&mut chain, measured, options, FINAL)?;
+        // Chosen by the coarse points, fitted to all.
+        let mut coarse = along(&track.coarse, joins);
+        let measured = merge(&mut coarse, FINAL)?;
+        refine::refine(&mut coarse, measured, options, FINAL)?;
+        (chain.pieces, chain.joins) = (coarse.pieces, coarse.joins);
     }
+    merge(&mut chain, FINAL)?;
     Some((chain.pieces.iter().map(chain::Piece::segment).collect(), chain.joins, closed))
 }
 
 /// The samples joined by lines: what is left where nothing fits.
 fn polyline(track: &Track) -> Parts {
     let closed = track.shape != Shape::Open;
-    let points: Vec<Vec2> = (0..=track.turn).map(|i| track.sample(i)).collect();
+    let points: Vec<Vec2> = (0..=track.turn).map(|i| track.all.sample(i)).collect();
     let segments: Vec<Segment> = points
         .windows(2)
         .filter(|p| p[0] != p[1])
@@ -226,7 +232,7 @@ fn stages(graph: &Graph, path: Option<&Path>, track: &Track, cleaned: &Cleaned) 
     Stages {
         points: cleaned.points.iter().map(|p| cleaned.restore(*p)).collect(),
         closed: track.shape != Shape::Open,
-        samples: (0..n).map(|i| cleaned.restore(track.sample(i))).collect(),
+        samples: (0..n).map(|i| cleaned.restore(track.all.sample(i))).collect(),
         corners: (0..n).filter(|&i| track.corner[i]).collect(),
         candidates: graph
             .candidates

@@ -7,7 +7,7 @@ use super::graph::{Distances, Edge, Goal, Graph, Node, Path};
 use super::merge::{Effort, merge};
 use super::transition::overlap;
 use crate::options::FitOptions;
-use crate::track::{Shape, Track};
+use crate::track::{Course, Shape, Track};
 use fairpath_curve::{Continuity, Kind};
 
 /// Effort of verifying one join.
@@ -89,7 +89,7 @@ fn verified(
 const ROUNDS_NEARBY: usize = 12;
 
 /// Samples before a join that got dearer, within which distances are repaired at once.
-const REPAIR_REACH: usize = 40;
+const REPAIR_REACH: usize = 15;
 
 /// Verifies the joins of a path; the nodes whose onward joins got dearer.
 fn reprice(graph: &mut Graph, path: &Path, track: &Track, options: &FitOptions, verifications: &mut usize) -> Vec<u32> {
@@ -137,20 +137,21 @@ fn pinched(graph: &mut Graph, path: &Path) -> Option<Edge> {
 fn verify(graph: &Graph, edge: Edge, track: &Track, options: &FitOptions) -> f64 {
     let ends = [edge.from, edge.to].map(|i| graph.nodes[i as usize]);
     let (u, v) = (&graph.candidates[ends[0].candidate as usize], &graph.candidates[ends[1].candidate as usize]);
-    let mut chain = chain(graph.candidates, &ends, vec![edge.level], track, false, options);
+    let mut chain = chain(graph.candidates, &ends, vec![edge.level], None, &track.coarse, options);
     let Some(measured) = merge(&mut chain, VERIFY) else { return f64::INFINITY };
     let (a, b) = (measured.normals[0].deviation(options), measured.normals[1].deviation(options));
     (penalty(a, options) - penalty(u.error, options)).max(0.0)
         + (penalty(b, options) - penalty(v.error, options)).max(0.0)
 }
 
-/// The chain of a sequence of nodes, each trimmed to the middle of its overlaps (section 3.6).
+/// The chain of a sequence of nodes, each trimmed to the middle of its overlaps (section 3.6), along the points of `course`. If it is
+/// the `whole` stroke, its shape and the samples in one turn tell how it closes.
 pub(crate) fn chain<'a>(
     candidates: &[Candidate],
     nodes: &[Node],
     joins: Vec<Continuity>,
-    track: &'a Track,
-    closed: bool,
+    whole: Option<(Shape, usize)>,
+    course: &'a Course,
     options: &FitOptions,
 ) -> Chain<'a> {
     let n = nodes.len();
@@ -188,15 +189,19 @@ pub(crate) fn chain<'a>(
             longest: 3.0 * part.length + 30.0,
         });
         if k + 1 < n && joins[k] == Continuity::G0 {
-            corners.push(track.samples[end] - track.samples[nodes[0].first as usize]);
+            corners.push(course.samples[end] - course.samples[nodes[0].first as usize]);
         }
     }
     let start = nodes[0].first as usize;
-    let ring = closed && track.shape == Shape::Ring;
-    let last = if ring { start + track.turn } else { end };
-    let data = track.run(start, last);
-    // The last datum of a ring is its first.
-    let data = if ring { &data[..data.len() - 1] } else { data };
+    let closed = whole.is_some_and(|(shape, _)| shape != Shape::Open);
+    let data = match whole {
+        // The last datum of a ring is its first.
+        Some((Shape::Ring, turn)) => {
+            let run = course.run(start, start + turn);
+            &run[..run.len() - 1]
+        }
+        _ => course.run(start, end),
+    };
     Chain { pieces, joins, data, corners, closed, end_factor: options.end_factor }
 }
 
