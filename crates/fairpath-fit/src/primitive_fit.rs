@@ -104,6 +104,50 @@ pub(crate) fn walk_line(primitive: &Primitive, data: &[Datum], end_factor: f64) 
     Walked { primitive: Primitive { start, ..*primitive }, length: s, normal }
 }
 
+/// As [`walk`], of an arc: on a circle foot and distance are known without stepping.
+pub(crate) fn walk_arc(primitive: &Primitive, data: &[Datum], end_factor: f64) -> Walked {
+    let last = data.len() - 1;
+    let extent = data[last].s - data[0].s;
+    let kappa = primitive.kappa;
+    if !(kappa.abs() * extent > NEARLY_STRAIGHT) {
+        return walk(primitive, data, end_factor);
+    }
+    let (sign, radius) = (kappa.signum(), 1.0 / kappa);
+    let tangent = trig::unit(primitive.heading);
+    let centre = primitive.start + Vec2::new(-tangent.y, tangent.x) * radius;
+    // The start moves to the foot of the first point.
+    let spoke = |p: Vec2| {
+        let v = p - centre;
+        let r = v.hypot2().sqrt();
+        (v * (1.0 / r), r)
+    };
+    let along = |e: Vec2| Vec2::new(-e.y, e.x) * sign;
+    let (e0, _) = spoke(data[0].point);
+    let start = centre + e0 * radius.abs();
+    let t0 = along(e0);
+    let heading = primitive.heading + trig::angle_of(Vec2::new(tangent.dot(t0), tangent.cross(t0)));
+    let mut normal = Normal::ZERO;
+    let mut e = e0;
+    for (i, datum) in data.iter().enumerate() {
+        let r;
+        (e, r) = spoke(datum.point);
+        let d = radius - sign * r;
+        let w = if i == 0 || i == last { end_factor * datum.weight } else { datum.weight };
+        let chord = centre + e * radius.abs() - start;
+        let t = along(e);
+        // Half the square of the chord is R² (1 − cos φ), by which the curve moves across itself where curvature changes.
+        normal.add(&[t.dot(t0), t.dot(chord), 0.5 * chord.hypot2(), 0.0], d, w);
+    }
+    let turned = trig::angle_of(Vec2::new(e0.dot(e), e0.cross(e)));
+    // Whole turns are told by the length of the stroke.
+    let turns = ((extent * kappa - turned) / std::f64::consts::TAU + 0.5).floor();
+    let length = (turned + turns * std::f64::consts::TAU) * radius;
+    Walked { primitive: Primitive { start, heading, kappa, sharpness: 0.0 }, length, normal }
+}
+
+/// An arc that turns less than this is walked along: its centre is too far away.
+const NEARLY_STRAIGHT: f64 = 1e-2;
+
 /// Walks along `data`, the ends counting `end_factor` times their weight (equation 1), after moving the primitive's start to the
 /// foot of the first point.
 pub(crate) fn walk(primitive: &Primitive, data: &[Datum], end_factor: f64) -> Walked {
@@ -148,6 +192,7 @@ pub(crate) fn circle_through(data: &[Datum]) -> Primitive {
 
 /// Fits the first `n` parameters from an initial guess by a fixed number of Gauss–Newton rounds.
 pub(crate) fn refine(initial: &Primitive, data: &[Datum], n: usize, rounds: usize, end_factor: f64) -> Walked {
+    let walk = if n == 3 && initial.sharpness == 0.0 { walk_arc } else { walk };
     let mut best = walk(initial, data, end_factor);
     for _ in 0..rounds {
         let Some(step) = best.normal.step(n) else { break };

@@ -2,7 +2,7 @@
 
 use crate::options::{FitOptions, Resampling};
 use crate::polyline::Polyline;
-use crate::primitive_fit::{circle_through, walk};
+use crate::primitive_fit::{circle_through, walk_arc};
 use crate::walk::Datum;
 
 /// The desired distance of samples along a polyline: at each vertex, and in between the lower of the cones of both neighbours.
@@ -37,7 +37,7 @@ pub(crate) fn rate(line: &Polyline, grain: f64, options: &FitOptions) -> Rate {
         } else {
             // One Gauss–Newton step from a circle through three of the points is near enough to place samples.
             let run = &data[a..=b];
-            let fit = walk(&circle_through(run), run, 1.0);
+            let fit = walk_arc(&circle_through(run), run, 1.0);
             fit.primitive.kappa.abs().min((fit.primitive.kappa + fit.normal.step(3).map_or(0.0, |s| s[2])).abs())
         };
         let wanted = std::f64::consts::TAU / (options.points_per_circle * curvature.max(1e-9));

@@ -2,7 +2,7 @@
 
 use crate::linear::{cholesky, solve};
 use crate::options::{Deviation, FitOptions};
-use crate::primitive_fit::{Normal, Walked, chord, circle_through, walk, walk_line};
+use crate::primitive_fit::{Normal, Walked, chord, circle_through, walk, walk_arc, walk_line};
 use crate::track::{Shape, Track};
 use crate::walk::{Datum, Primitive, Walker};
 use fairpath_curve::{Kind, trig};
@@ -178,7 +178,11 @@ fn extend(
     options: &FitOptions,
     out: &mut Vec<Candidate>,
 ) {
-    let walk = if family.kind == Kind::Line { walk_line } else { walk };
+    let walk = match family.kind {
+        Kind::Line => walk_line,
+        Kind::Arc => walk_arc,
+        Kind::Clothoid => walk,
+    };
     let n = family.unknowns;
     // From the fit of the shorter run one step over all data is nearly always enough.
     let (guess, rounds) = match &family.warm {
