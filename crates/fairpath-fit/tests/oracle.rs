@@ -47,10 +47,11 @@ fn sample(stages: &Stages, i: usize) -> Point {
     stages.samples[i % stages.samples.len()]
 }
 
-/// Largest distance of the samples that a candidate covers to its continuation by half its length on both sides: a fit measures
-/// across the curve, also where a sample lies a little beyond the end.
+/// Largest distance of the samples that a candidate covers to its continuation on both sides: a fit measures across the curve, also
+/// where a stroke turns back and a sample lies beyond the end.
 fn farthest(stages: &Stages, c: &Candidate) -> f64 {
-    let (s, more) = (&c.segment, 0.5 * c.segment.length);
+    let way: f64 = (c.first..c.last).map(|i| (sample(stages, i + 1) - sample(stages, i)).hypot()).sum();
+    let (s, more) = (&c.segment, 0.5 * way);
     let long = Segment {
         start: s.point_at(-more),
         heading: s.heading_at(-more),
@@ -125,7 +126,6 @@ fn candidates_cover_their_samples_in_order_from_end_to_end() {
 
 #[test]
 fn no_candidate_runs_through_a_corner() {
-    let mut corners = 0;
     let seen = std::sync::atomic::AtomicUsize::new(0);
     let n = each(&FitOptions::default(), |name, stages| {
         seen.fetch_add(stages.corners.len(), std::sync::atomic::Ordering::Relaxed);
@@ -136,7 +136,7 @@ fn no_candidate_runs_through_a_corner() {
             assert!(!stages.corners.iter().any(|&k| c.first < k && k < c.last), "{name}: {c:?} {:?}", stages.corners);
         }
     });
-    corners += seen.into_inner();
+    let corners = seen.into_inner();
     assert!(n >= 4 && corners > 0, "{n} strokes with {corners} corners");
 }
 
@@ -176,10 +176,14 @@ fn arc_lengths(name: &str, stages: &Stages) -> Vec<f64> {
     let (mut edge, mut at, mut out) = (0, 0.0, Vec::new());
     for sample in &stages.samples {
         loop {
-            assert!(edge + 1 < points.len(), "{name}: a sample at {sample:?} is not on the stroke after those before it");
+            assert!(
+                edge + 1 < points.len(),
+                "{name}: a sample at {sample:?} is not on the stroke after those before it"
+            );
             let (a, v) = (points[edge], points[edge + 1] - points[edge]);
             let u = ((*sample - a).dot(v) / v.hypot2()).clamp(0.0, 1.0);
-            let on = (*sample - (a + v * u)).hypot() < 1e-6 && out.last().is_none_or(|s| at + u * v.hypot() >= s - 1e-6);
+            let on =
+                (*sample - (a + v * u)).hypot() < 1e-6 && out.last().is_none_or(|s| at + u * v.hypot() >= s - 1e-6);
             if on {
                 out.push(at + u * v.hypot());
                 break;
@@ -208,7 +212,10 @@ fn samples_lie_on_the_stroke_in_order_and_their_spacing_changes_as_slowly_as_ask
                 assert!(!dense && gap <= options.max_sampling, "{name}: {gap} px after sample {i} of {last}");
                 if i > 0 && !stop(i) {
                     let ratio = gap / (s[i] - s[i - 1]);
-                    assert!(ratio < fastest && ratio > 1.0 / fastest, "{name}: spacing changes by {ratio} at {i} of {last}");
+                    assert!(
+                        ratio < fastest && ratio > 1.0 / fastest,
+                        "{name}: spacing changes by {ratio} at {i} of {last}"
+                    );
                 }
             }
         });
@@ -231,7 +238,8 @@ fn a_circle_has_the_samples_that_the_options_ask_for() {
     let tau = std::f64::consts::TAU;
     for per_circle in [8.0, 12.0, 30.0] {
         let options = FitOptions { points_per_circle: per_circle, ..FitOptions::default() };
-        let circle = |i: i32| Point::new(80.0 * (f64::from(i) * tau / 200.0).cos(), 80.0 * (f64::from(i) * tau / 200.0).sin());
+        let circle =
+            |i: i32| Point::new(80.0 * (f64::from(i) * tau / 200.0).cos(), 80.0 * (f64::from(i) * tau / 200.0).sin());
         let stroke = Stroke::new("circle", (0..=200).map(circle).collect());
         let mut stages = Stages::default();
         fit_observed(&stroke, &options, &mut (), Some(&mut stages)).expect("a circle can be fitted");

@@ -29,7 +29,13 @@ fn points() -> impl Strategy<Value = Vec<Point>> {
     let steps = |size: f64| prop::collection::vec((-size..size, -size..size), 0..300);
     let walk = |steps: Vec<(f64, f64)>| -> Vec<Point> {
         let mut at = Point::new(100.0, 100.0);
-        steps.into_iter().map(|s| { at += Vec2::from(s); at }).collect()
+        steps
+            .into_iter()
+            .map(|s| {
+                at += Vec2::from(s);
+                at
+            })
+            .collect()
     };
     let staircase = (count.clone(), select(vec![1.0, 4.0, 25.0]), any::<u64>()).prop_map(|(n, step, bits)| {
         let mut at = Point::ORIGIN;
@@ -69,16 +75,16 @@ fn points() -> impl Strategy<Value = Vec<Point>> {
         nearly_closed,
     ];
     // Repeated points, and all of it elsewhere.
-    (drawn, prop::bool::weighted(0.3), select(vec![0.0, -1e4, 1e7]))
-        .prop_map(|(drawn, doubled, away)| {
-            let times = if doubled { 2 } else { 1 };
-            drawn.into_iter().flat_map(|p| std::iter::repeat_n(p + Vec2::new(away, -0.5 * away), times)).collect()
-        })
+    (drawn, prop::bool::weighted(0.3), select(vec![0.0, -1e4, 1e7])).prop_map(|(drawn, doubled, away)| {
+        let times = if doubled { 2 } else { 1 };
+        drawn.into_iter().flat_map(|p| std::iter::repeat_n(p + Vec2::new(away, -0.5 * away), times)).collect()
+    })
 }
 
 fn options() -> impl Strategy<Value = FitOptions> {
     let closing = select(vec![Closing::Auto, Closing::Yes, Closing::No]);
-    (select(Preset::ALL.to_vec()), closing).prop_map(|(preset, closed)| FitOptions { closed, ..FitOptions::preset(preset) })
+    (select(Preset::ALL.to_vec()), closing)
+        .prop_map(|(preset, closed)| FitOptions { closed, ..FitOptions::preset(preset) })
 }
 
 proptest! {
@@ -166,10 +172,13 @@ fn a_closed_stroke_without_any_feasible_edge_still_gives_a_closed_curve() {
     // Tolerances that no primitive meets, and joins that none of the kinds can make.
     let tight = FitOptions { closed: Closing::Yes, max_error: 0.01, max_join_error: 1e-9, ..FitOptions::default() };
     let unjoinable = FitOptions { clothoid_cost: None, closed: Closing::Yes, ..FitOptions::default() };
-    let jagged = stroke("jagged", (0..80).map(|i| f64::from(i) * TAU / 80.0).map(|a| {
-        let r = 100.0 + 8.0 * (a * 17.0).sin();
-        (r * a.cos(), r * a.sin())
-    }));
+    let jagged = stroke(
+        "jagged",
+        (0..80).map(|i| f64::from(i) * TAU / 80.0).map(|a| {
+            let r = 100.0 + 8.0 * (a * 17.0).sin();
+            (r * a.cos(), r * a.sin())
+        }),
+    );
     for options in [tight, unjoinable] {
         let fit = fitted(&jagged, &options);
         assert!(fit.spline.is_closed());
@@ -180,10 +189,13 @@ fn a_closed_stroke_without_any_feasible_edge_still_gives_a_closed_curve() {
 
 #[test]
 fn a_spiral_of_twenty_turns_is_followed() {
-    let spiral = stroke("spiral", (0..2000).map(|i| f64::from(i) / 2000.0).map(|u| {
-        let (r, a) = (10.0 + 240.0 * u, 20.0 * TAU * u);
-        (r * a.cos(), r * a.sin())
-    }));
+    let spiral = stroke(
+        "spiral",
+        (0..2000).map(|i| f64::from(i) / 2000.0).map(|u| {
+            let (r, a) = (10.0 + 240.0 * u, 20.0 * TAU * u);
+            (r * a.cos(), r * a.sin())
+        }),
+    );
     let fit = fitted(&spiral, &FitOptions::default());
     assert!(fit.report.max_deviation < 5.0 && fit.report.rms_deviation < 1.5, "{:?}", fit.report);
     assert!(!fit.spline.is_closed());
@@ -194,10 +206,13 @@ fn a_spiral_of_twenty_turns_is_followed() {
 #[test]
 fn a_circle_traced_three_times_stays_a_circle() {
     for (turns, tremor) in [(3.0, 0.0), (3.0, 1.0), (2.93, 1.0)] {
-        let circle = stroke("circle", (0..=360).map(f64::from).map(|i| {
-            let (a, r) = (turns * TAU * i / 360.0, 100.0 + tremor * (1.7 * i).sin());
-            (200.0 + r * a.cos(), 200.0 + r * a.sin())
-        }));
+        let circle = stroke(
+            "circle",
+            (0..=360).map(f64::from).map(|i| {
+                let (a, r) = (turns * TAU * i / 360.0, 100.0 + tremor * (1.7 * i).sin());
+                (200.0 + r * a.cos(), 200.0 + r * a.sin())
+            }),
+        );
         let fit = fitted(&circle, &FitOptions::default());
         assert!(fit.report.max_deviation < 3.0, "{turns} turns: {:?}", fit.report);
     }
@@ -223,10 +238,13 @@ fn a_retraced_line_is_open_and_keeps_its_end() {
 #[test]
 fn a_butterfly_of_clothoids_alone_stays_near_its_stroke() {
     // Fay's butterfly curve, once around.
-    let butterfly = stroke("butterfly", (0..=300).map(|i| f64::from(i) * TAU / 300.0).map(|t| {
-        let r = 50.0 * (t.sin().exp() - 2.0 * (4.0 * t).cos() + ((2.0 * t - PI) / 24.0).sin().powi(5));
-        (r * t.cos(), -r * t.sin())
-    }));
+    let butterfly = stroke(
+        "butterfly",
+        (0..=300).map(|i| f64::from(i) * TAU / 300.0).map(|t| {
+            let r = 50.0 * (t.sin().exp() - 2.0 * (4.0 * t).cos() + ((2.0 * t - PI) / 24.0).sin().powi(5));
+            (r * t.cos(), -r * t.sin())
+        }),
+    );
     let fit = fitted(&butterfly, &FitOptions::preset(Preset::Clothoids));
     assert!(fit.report.max_deviation < 7.0 && fit.report.rms_deviation < 2.0, "{:?}", fit.report);
 }
@@ -251,7 +269,9 @@ fn small_detail_far_from_the_origin_is_fitted_with_exact_joins() {
 
 #[test]
 fn a_million_points_are_fitted_with_work_that_grows_with_the_curve_only() {
-    let points = |n: u32| stroke("dense", (0..n).map(|i| f64::from(i) * 240.0 / f64::from(n)).map(|x| (x, 40.0 * (x / 35.0).sin())));
+    let points = |n: u32| {
+        stroke("dense", (0..n).map(|i| f64::from(i) * 240.0 / f64::from(n)).map(|x| (x, 40.0 * (x / 35.0).sin())))
+    };
     let (sparse, dense) = (fit(&points(300), &FitOptions::default()), fit(&points(1_000_000), &FitOptions::default()));
     let (sparse, dense) = (sparse.expect("it is a curve"), dense.expect("it is a curve"));
     assert_eq!(dense.report.points, 1_000_000);
@@ -295,14 +315,31 @@ fn every_number_among_the_options_is_set_to_absurd_values_here() {
             "{name} is a number that no test sets"
         );
     }
-    assert_eq!(all.as_object().map(|o| o.values().filter(|v| !v.is_string() && !v.is_boolean()).count()), Some(named.len()));
+    assert_eq!(
+        all.as_object().map(|o| o.values().filter(|v| !v.is_string() && !v.is_boolean()).count()),
+        Some(named.len())
+    );
 }
 
 #[test]
 fn an_absurd_option_is_refused_or_still_gives_a_sound_curve() {
     let values = [
-        0.0, -0.0, -1.0, f64::NAN, f64::INFINITY, f64::NEG_INFINITY, 1e300, -1e300, f64::MIN_POSITIVE, 5e-324, 1e-9, 1e-3, 0.3,
-        1e3, 1e6, 1e12,
+        0.0,
+        -0.0,
+        -1.0,
+        f64::NAN,
+        f64::INFINITY,
+        f64::NEG_INFINITY,
+        1e300,
+        -1e300,
+        f64::MIN_POSITIVE,
+        5e-324,
+        1e-9,
+        1e-3,
+        0.3,
+        1e3,
+        1e6,
+        1e12,
     ];
     let ring = stroke("ring", (0..90).map(|i| f64::from(i) * TAU / 90.0).map(|a| (60.0 * a.cos(), 40.0 * a.sin())));
     let (mut refused, mut fitted) = (0, 0);
@@ -325,7 +362,9 @@ fn an_absurd_option_is_refused_or_still_gives_a_sound_curve() {
 
 #[test]
 fn options_that_are_no_numbers_are_refused_by_name() {
-    for (name, set) in setters().into_iter().filter(|s| !["g2_overlap", "g1_overlap", "validation_rounds"].contains(&s.0)) {
+    for (name, set) in
+        setters().into_iter().filter(|s| !["g2_overlap", "g1_overlap", "validation_rounds"].contains(&s.0))
+    {
         for value in [f64::NAN, f64::INFINITY, -1.0] {
             let mut options = FitOptions::default();
             set(&mut options, value);
