@@ -213,7 +213,7 @@ impl FitOptions {
             corner_window: 26.0,
             corner_distance: 12.0,
             resampling: Resampling::Even,
-            sampling_falloff: 0.2,
+            sampling_falloff: 0.4,
             points_per_circle: 12.0,
             min_sampling: 2.0,
             max_sampling: 1000.0,
@@ -227,7 +227,7 @@ impl FitOptions {
             g0_cost: None,
             g1_cost: None,
             g2_cost: Some(0.0),
-            error_cost: 4.5,
+            error_cost: 3.8,
             deviation: Deviation::Rms,
             free_error: 1.0,
             shortness_cost: 0.5,
@@ -245,7 +245,7 @@ impl FitOptions {
         match preset {
             Preset::Default => default,
             Preset::Accurate => {
-                Self { error_cost: 4.5, shortness_cost: 1.0, max_error: 2.0, points_per_circle: 30.0, ..default }
+                Self { error_cost: 3.8, shortness_cost: 1.0, max_error: 2.0, points_per_circle: 30.0, ..default }
             }
             Preset::Loose => Self { error_cost: 0.2, max_error: 8.0, ..default },
             Preset::LinesArcs => Self {

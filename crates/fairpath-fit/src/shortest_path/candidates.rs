@@ -141,6 +141,9 @@ fn hopeless(options: &FitOptions) -> f64 {
     2.0 * dearest + HOPELESS_MARGIN
 }
 
+/// Runs of no more intervals than this are kept all the same: without them there might be no path at all.
+const ALWAYS_KEPT: usize = 4;
+
 /// So that costs of zero do not discard everything.
 const HOPELESS_MARGIN: f64 = 10.0;
 
@@ -210,7 +213,10 @@ fn extend(
     let extent = data[data.len() - 1].s - data[0].s;
     let sound = fit.normal.energy.is_finite() && fit.length > 0.25 * extent && fit.length < 1.5 * extent + 4.0;
     let error = deviation(fit.normal.energy, fit.normal.weight, fit.normal.max, options);
-    if !sound || fit.normal.max > options.max_error || penalty(error, options) > hopeless(options) {
+    if !sound
+        || fit.normal.max > options.max_error
+        || (span.1 - span.0 > ALWAYS_KEPT && penalty(error, options) > hopeless(options))
+    {
         family.misses += 1;
         family.warm = sound.then_some(fit);
         return;

@@ -15,7 +15,7 @@ use fairpath_curve::{Continuity, Kind, Vec2};
 use std::ops::Range;
 
 /// Effort of trying one change.
-const TRY: Effort = Effort { rounds: 8, tolerance: 3e-3 };
+const TRY: Effort = Effort { rounds: 6, tolerance: 1e-2 };
 
 /// Pieces on each side of a change that move with it.
 const NEIGHBOURS: usize = 2;

@@ -11,7 +11,7 @@ use crate::track::{Course, Shape, Track};
 use fairpath_curve::{Continuity, Kind};
 
 /// Effort of verifying one join.
-const VERIFY: Effort = Effort { rounds: 8, tolerance: 1e-2 };
+const VERIFY: Effort = Effort { rounds: 5, tolerance: 3e-2 };
 
 /// The shortest path through the graph whose joins have all been verified, and how many verifications it took.
 pub(crate) fn search(graph: &mut Graph, track: &Track, options: &FitOptions) -> Option<(Path, usize)> {
