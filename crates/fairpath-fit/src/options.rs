@@ -64,6 +64,17 @@ pub enum Transitions {
     Paper,
 }
 
+/// How the path is found again after some of its joins got dearer.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Search {
+    /// Distances to the target are repaired near the joins that changed, and computed anew before the path is accepted.
+    #[default]
+    Repair,
+    /// As the paper does: A* with the distances found before as its heuristic, which are computed anew every few runs.
+    AStar,
+}
+
 /// What stands for the deviation of a primitive from its data in costs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
@@ -185,6 +196,8 @@ pub struct FitOptions {
     /// A join that is expected to move both primitives further than this is not considered (section 3.4).
     #[schemars(extend("unit" = "px"))]
     pub max_join_error: f64,
+    /// How the path is found again after some of its joins got dearer (section 3.5).
+    pub search: Search,
     /// Most times that the shortest path is searched anew after its joins have been verified (section 3.5).
     #[schemars(extend("unit" = "1"))]
     pub validation_rounds: usize,
@@ -239,6 +252,7 @@ impl FitOptions {
             transitions: Transitions::Covariance,
             transition_peak: 2.0,
             max_join_error: 10.0,
+            search: Search::Repair,
             validation_rounds: 3,
             refine: true,
         };

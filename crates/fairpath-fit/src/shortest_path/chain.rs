@@ -13,6 +13,9 @@ pub(crate) const KAPPA0: usize = 3;
 pub(crate) const KAPPA1: usize = 4;
 pub(crate) const LENGTH: usize = 5;
 
+/// Weight of a corner relative to that of an end.
+const CORNER_FACTOR: f64 = 2.0;
+
 /// A primitive in a chain, px.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Piece {
@@ -141,7 +144,7 @@ impl Chain<'_> {
         for i in data {
             let datum = self.data[i];
             if i == first && open_start {
-                let (v, w) = (datum.point - walker.position, self.end_factor * datum.weight);
+                let (v, w) = (datum.point - walker.position, self.weight_of_end(i) * datum.weight);
                 normals[k].add(&[1.0, 0.0, 0.0, 0.0, 0.0, 0.0], v.x, w);
                 normals[k].add(&[0.0, 1.0, 0.0, 0.0, 0.0, 0.0], v.y, w);
                 normals[k].reached(i, self.end_error(v, walker.tangent, i), datum.weight);
@@ -156,7 +159,7 @@ impl Chain<'_> {
                 }
                 let length = self.pieces[k].q[LENGTH];
                 walker.advance(length - walker.s);
-                let (v, w) = (datum.point - walker.position, self.end_factor * datum.weight);
+                let (v, w) = (datum.point - walker.position, self.weight_of_end(i) * datum.weight);
                 for (n, d) in [(Vec2::new(1.0, 0.0), v.x), (Vec2::new(0.0, 1.0), v.y)] {
                     let mut row = row(&walker, n, &self.pieces[k].q);
                     row[LENGTH] += n.dot(walker.tangent);
@@ -201,6 +204,12 @@ impl Chain<'_> {
 }
 
 impl Chain<'_> {
+    /// Weight of an end's datum. Arms that meet at an acute corner would run on to where they cross; the drawn tip holds them.
+    fn weight_of_end(&self, datum: usize) -> f64 {
+        let is_end = (datum == 0 || datum + 1 == self.data.len()) && !self.closed;
+        if is_end { self.end_factor } else { CORNER_FACTOR * self.end_factor }
+    }
+
     /// The distance of an end's datum: at a corner, where the curves meet a little off the drawn tip, only what lies across.
     fn end_error(&self, v: Vec2, tangent: Vec2, datum: usize) -> f64 {
         let is_end = datum == 0 || datum + 1 == self.data.len();

@@ -10,7 +10,8 @@ use super::transition::{at_least, estimate, overlap, possible};
 use crate::options::FitOptions;
 use crate::track::Track;
 use fairpath_curve::{Continuity, Kind};
-use std::collections::{BTreeSet, HashMap};
+use std::cmp::{Ordering, Reverse};
+use std::collections::{BTreeSet, BinaryHeap, HashMap, HashSet};
 
 /// A candidate with the logical signs of its curvature at start and end (section 3.8). A line makes two.
 #[derive(Clone, Copy, Debug)]
@@ -348,6 +349,80 @@ impl Distances {
         }
     }
 
+    /// The shortest path to the goal by A* (Hart, Nilsson and Raphael 1968), for distances that have become too short since they were
+    /// computed: costs only grow, so they are an admissible heuristic.
+    pub(crate) fn a_star(&self, graph: &mut Graph) -> Option<Path> {
+        let mut reached = Reached::new();
+        let mut open = BinaryHeap::new();
+        for &start in &self.order[self.origin] {
+            reached.insert(start, (0.0, None));
+            open.push(Reverse(Estimate { total: self.to_target[start as usize], node: start, arrived: None }));
+        }
+        let mut settled = HashSet::new();
+        while let Some(Reverse(Estimate { total, node, arrived })) = open.pop() {
+            if let Some(closing) = arrived {
+                return Some(self.traced(node, closing, total, &reached));
+            }
+            if !settled.insert(node) {
+                continue;
+            }
+            let this = graph.nodes[node as usize];
+            let before = reached[&node].0 + this.cost;
+            let start = self.position(&this);
+            let end = start + (this.last - this.first) as usize;
+            if self.goal == Goal::End && end == self.target {
+                open.push(Reverse(Estimate { total: before, node, arrived: Some(Continuity::G0) }));
+                continue;
+            }
+            for (level, base) in graph.levels(end) {
+                let overlap = overlap(level, graph.options);
+                if end < start + overlap + 1 {
+                    continue;
+                }
+                let next_start = end - overlap;
+                if let (Goal::Around(home), true) = (self.goal, next_start == self.target) {
+                    let cost = before + graph.edge_cost(Edge { from: node, to: home, level }, base);
+                    if cost.is_finite() {
+                        open.push(Reverse(Estimate { total: cost, node, arrived: Some(level) }));
+                    }
+                }
+                if next_start >= self.target {
+                    continue;
+                }
+                for &next in &self.order[next_start % self.turn] {
+                    let span = graph.nodes[next as usize].last - graph.nodes[next as usize].first;
+                    if next_start + span as usize <= end || settled.contains(&next) {
+                        continue;
+                    }
+                    let cost = before + graph.edge_cost(Edge { from: node, to: next, level }, base);
+                    if cost.is_finite() && reached.get(&next).is_none_or(|r| cost < r.0) {
+                        reached.insert(next, (cost, Some((node, level))));
+                        let total = cost + self.to_target[next as usize];
+                        open.push(Reverse(Estimate { total, node: next, arrived: None }));
+                    }
+                }
+            }
+        }
+        None
+    }
+
+    /// The path by which A* came to its last node.
+    fn traced(&self, last: u32, closing: Continuity, cost: f64, reached: &Reached) -> Path {
+        let (mut nodes, mut joins) = (vec![last], Vec::new());
+        if let Goal::Around(_) = self.goal {
+            joins.push(closing);
+        }
+        let mut node = last;
+        while let Some((before, level)) = reached[&node].1 {
+            nodes.push(before);
+            joins.push(level);
+            node = before;
+        }
+        nodes.reverse();
+        joins.reverse();
+        Path { nodes, joins, cost }
+    }
+
     /// The shortest path to the goal.
     pub(crate) fn path(&self) -> Option<Path> {
         let start = *self.order[self.origin].first()?;
@@ -367,6 +442,38 @@ impl Distances {
                 Onward::Nowhere => return None,
             }
         }
+    }
+}
+
+/// The cost of everything before a node, and the node and join before it.
+type Reached = HashMap<u32, (f64, Option<(u32, Continuity)>)>;
+
+/// A node that A* has yet to visit, by the length of the best path through it.
+#[derive(Clone, Copy, Debug)]
+struct Estimate {
+    total: f64,
+    node: u32,
+    /// The join by which the goal is reached from `node`, if this is the goal.
+    arrived: Option<Continuity>,
+}
+
+impl PartialEq for Estimate {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other).is_eq()
+    }
+}
+
+impl Eq for Estimate {}
+
+impl PartialOrd for Estimate {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl Ord for Estimate {
+    fn cmp(&self, other: &Self) -> Ordering {
+        self.total.total_cmp(&other.total).then(self.node.cmp(&other.node)).then(self.arrived.cmp(&other.arrived))
     }
 }
 

@@ -6,7 +6,7 @@ use super::chain::{Chain, Piece};
 use super::graph::{Distances, Edge, Goal, Graph, Node, Path};
 use super::merge::{Effort, merge};
 use super::transition::overlap;
-use crate::options::FitOptions;
+use crate::options::{FitOptions, Search};
 use crate::track::{Course, Shape, Track};
 use fairpath_curve::{Continuity, Kind};
 
@@ -57,6 +57,18 @@ fn verified(
 ) -> Option<Path> {
     let mut distances = Distances::new(graph, goal);
     let mut path = distances.path()?;
+    if options.search == Search::AStar {
+        let most = options.validation_rounds * ROUNDS_NEARBY;
+        for run in 1..=most {
+            if reprice(graph, &path, track, options, verifications).is_empty() {
+                break;
+            }
+            if run % RUNS_BETWEEN == 0 {
+                distances = Distances::new(graph, goal);
+            }
+            path = distances.a_star(graph)?;
+        }
+    }
     for _ in 0..options.validation_rounds {
         // Joins are verified with distances repaired nearby; when the path holds, all distances are computed anew, and it
         // is done if the path still holds.
@@ -84,6 +96,9 @@ fn verified(
     }
     Some(path)
 }
+
+/// Runs of A* after which its heuristic is computed anew.
+const RUNS_BETWEEN: usize = 4;
 
 /// Most rounds of verification between two searches of the whole.
 const ROUNDS_NEARBY: usize = 12;
