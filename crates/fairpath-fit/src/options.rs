@@ -21,12 +21,15 @@ pub enum Preset {
     Polyline,
     /// Clothoids only, G2 joins.
     Clothoids,
+    /// The numbers and the steps as the paper has them, and nothing beyond it. Where the paper leaves a cost open, the one that its
+    /// first author settled on later.
+    Paper,
 }
 
 impl Preset {
     /// All presets, in the order of their documentation.
-    pub const ALL: [Self; 6] =
-        [Self::Default, Self::Accurate, Self::Loose, Self::LinesArcs, Self::Polyline, Self::Clothoids];
+    pub const ALL: [Self; 7] =
+        [Self::Default, Self::Accurate, Self::Loose, Self::LinesArcs, Self::Polyline, Self::Clothoids, Self::Paper];
 }
 
 /// Whether the stroke is a closed curve.
@@ -120,10 +123,10 @@ pub struct FitOptions {
     pub corner_distance: f64,
     /// How samples are placed (section 3.2).
     pub resampling: Resampling,
-    /// How fast the distance of samples may change along the stroke: β of section 3.2.
+    /// How fast the distance of samples may change along the stroke: β of section 3.2; the paper's value is 0.2.
     #[schemars(extend("unit" = "px/px"))]
     pub sampling_falloff: f64,
-    /// Samples on a full circle: γ of section 3.2.
+    /// Samples on a full circle: γ of section 3.2; the paper's value is 15.
     #[schemars(extend("unit" = "1"))]
     pub points_per_circle: f64,
     /// Least distance of samples (section 3.2).
@@ -259,9 +262,9 @@ impl FitOptions {
         match preset {
             Preset::Default => default,
             Preset::Accurate => {
-                Self { error_cost: 3.8, shortness_cost: 1.0, max_error: 2.0, points_per_circle: 30.0, ..default }
+                Self { error_cost: 15.0, free_error: 0.7, max_error: 4.0, points_per_circle: 14.0, ..default }
             }
-            Preset::Loose => Self { error_cost: 0.2, max_error: 8.0, ..default },
+            Preset::Loose => Self { error_cost: 1.0, max_error: 8.0, ..default },
             Preset::LinesArcs => Self {
                 line_cost: Some(8.0),
                 arc_cost: Some(12.0),
@@ -275,10 +278,25 @@ impl FitOptions {
                 arc_cost: None,
                 clothoid_cost: None,
                 g0_cost: Some(0.0),
+                error_cost: 2.0,
                 shortness_cost: 0.0,
                 ..default
             },
             Preset::Clothoids => Self { line_cost: None, arc_cost: None, ..default },
+            Preset::Paper => Self {
+                resampling: Resampling::Greedy,
+                sampling_falloff: 0.2,
+                points_per_circle: 15.0,
+                sample_share: 1.0,
+                error_cost: 1.0,
+                deviation: Deviation::Max,
+                free_share: 1.0,
+                shortness_cost: 2.0,
+                transitions: Transitions::Paper,
+                search: Search::AStar,
+                refine: false,
+                ..default
+            },
         }
     }
 

@@ -189,6 +189,7 @@ pub fn preset_name(preset: Preset) -> &'static str {
         Preset::LinesArcs => "lines-arcs",
         Preset::Polyline => "polyline",
         Preset::Clothoids => "clothoids",
+        Preset::Paper => "paper",
     }
 }
 
