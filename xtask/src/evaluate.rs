@@ -200,7 +200,7 @@ fn row(name: &str, judged: &Judged, held: &limits::Held) -> Vec<String> {
     let sum = |key: &str| judged.rows.iter().filter_map(|row| row[key].as_u64()).sum::<u64>();
     let figure = |key: &str| match &judged.summary[key] {
         Value::Null => "-".to_owned(),
-        value if held.short.iter().any(|short| short.figure == key) => format!("{SHORT} {value}"),
+        value if held.above.contains(&key) => format!("{SHORT} {value}"),
         value => value.to_string(),
     };
     let mut cells = vec![name.to_owned(), figure("strokes"), figure("refused"), figure("segments")];

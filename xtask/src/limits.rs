@@ -56,9 +56,9 @@ const FILES: &[(&str, &[Limit])] = &[
         ],
     ),
     ("wacom.json", &[reached("segments", 368.0), reached("dev_rms_mean", 0.507)]),
-    ("perfect.json", &[short("segments", 108.0, 114.0), reached("dev_rms_mean", 1.45)]),
+    ("perfect.json", &[short("segments", 108.0, 119.0), reached("dev_rms_mean", 1.45)]),
     // The long strokes are smooth by construction: any corner is an extra one.
-    ("long.json", &[short("segments", 446.0, 600.0), reached("dev_rms_mean", 2.0), short("corners", 0.0, 10.0)]),
+    ("long.json", &[short("segments", 446.0, 599.0), reached("dev_rms_mean", 2.0), short("corners", 0.0, 10.0)]),
 ];
 
 /// The only reason for which a stroke of these files may have no curve.
@@ -67,7 +67,7 @@ pub(crate) const ALLOWED_REFUSAL: &str = "too-short";
 /// A goal that is not reached, and is not expected to be yet.
 #[derive(Debug, PartialEq)]
 pub(crate) struct Short {
-    pub(crate) figure: &'static str,
+    figure: &'static str,
     value: f64,
     goal: f64,
 }
@@ -85,6 +85,8 @@ pub(crate) struct Held {
     pub(crate) broken: Vec<String>,
     /// Goals that are not reached, within their exceptions.
     pub(crate) short: Vec<Short>,
+    /// Every figure above its goal, excepted or not.
+    pub(crate) above: Vec<&'static str>,
 }
 
 /// Holds the evaluator's summary of a file against its limits.
@@ -94,6 +96,9 @@ pub(crate) fn hold(file: &str, summary: &Value) -> Held {
     let mut held = Held::default();
     for &Limit { figure, goal, held: exception } in general.chain(own.clone()) {
         let most = exception.unwrap_or(goal);
+        if summary[figure].as_f64().is_some_and(|value| value > goal) {
+            held.above.push(figure);
+        }
         match summary[figure].as_f64() {
             Some(value) if value > most => held.broken.push(format!("{figure} is {value}, more than {most}")),
             Some(value) if value > goal => held.short.push(Short { figure, value, goal }),
