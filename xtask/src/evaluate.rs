@@ -32,6 +32,9 @@ const HEADER: &[&str] = &[
 /// A file that takes longer than this to fit is taken for one that never ends. Every one of them should take seconds.
 const LIMIT: Duration = Duration::from_secs(240);
 
+/// Marks a figure of the table that is short of its goal.
+const SHORT: &str = "!";
+
 /// So many strokes that are too far off are named.
 const WORST: usize = 8;
 
@@ -55,29 +58,41 @@ pub(crate) fn add_steps(steps: &mut Steps, names: &[String]) {
         return;
     }
     let mut rows = Vec::new();
+    let mut all_short = Vec::new();
     let mut growth = None;
     for file in files {
         let name = file_name(&file);
         steps.step(format!("evaluator: {name}"), || {
             let judged = judge(&file)?;
-            rows.push(row(&name, &judged));
+            let held = limits::hold(&name, &judged.summary);
+            rows.push(row(&name, &judged, &held));
             if name == bench::LONG {
                 growth = Some(exponent(&file, &judged)?);
             }
             let mut faults = judged.faults;
-            faults.extend(limits::breaches(&name, &judged.summary));
+            faults.extend(held.broken);
             for fault in &faults {
                 println!("{name}: {fault}");
             }
-            if faults.is_empty() {
-                Ok(Outcome::Passed(format!("{} strokes within the limits", judged.summary["strokes"])))
-            } else {
+            let short: Vec<String> = held.short.iter().map(ToString::to_string).collect();
+            all_short.extend(short.iter().map(|short| format!("{name}: {short}")));
+            if !faults.is_empty() {
                 bail!("{}", faults.join("; "))
             }
+            if !short.is_empty() {
+                return Ok(Outcome::Short(short.join("; ")));
+            }
+            Ok(Outcome::Passed(format!("{} strokes reach every goal", judged.summary["strokes"])))
         });
     }
     println!();
     table::print(HEADER, &rows);
+    if !all_short.is_empty() {
+        println!("\n{SHORT} SHORT OF GOAL:");
+        for short in &all_short {
+            println!("  {short}");
+        }
+    }
     if let Some(exponent) = growth {
         println!(
             "\ngrowth over {}: ms ~ length^{exponent:.2}, each stroke timed once (see `cargo xtask bench`)",
@@ -166,9 +181,9 @@ fn judge(strokes: &Path) -> Result<Judged> {
 /// Names the strokes that are furthest off, where any is too far: it is them that one wants to see.
 fn print_worst(rows: &[Value]) {
     for figure in ["dev_max", "rev_max"] {
-        let Some((_, most)) = limits::EVERY_FILE.iter().find(|(name, _)| *name == figure) else { continue };
+        let Some(limit) = limits::EVERY_FILE.iter().find(|limit| limit.figure == figure) else { continue };
         let value = |row: &&Value| row[figure].as_f64().unwrap_or(f64::INFINITY);
-        let mut worst: Vec<&Value> = rows.iter().filter(|row| value(row) > *most).collect();
+        let mut worst: Vec<&Value> = rows.iter().filter(|row| value(row) > limit.goal).collect();
         worst.sort_by(|a, b| value(b).total_cmp(&value(a)));
         for row in worst.iter().take(WORST) {
             println!("  {figure} {:.1}: {}", value(row), row["name"].as_str().unwrap_or("?"));
@@ -181,10 +196,11 @@ fn read_json(path: &Path) -> Result<Value> {
     serde_json::from_slice(&text).with_context(|| format!("{} is no JSON", path.display()))
 }
 
-fn row(name: &str, judged: &Judged) -> Vec<String> {
+fn row(name: &str, judged: &Judged, held: &limits::Held) -> Vec<String> {
     let sum = |key: &str| judged.rows.iter().filter_map(|row| row[key].as_u64()).sum::<u64>();
     let figure = |key: &str| match &judged.summary[key] {
         Value::Null => "-".to_owned(),
+        value if held.above.contains(&key) => format!("{SHORT} {value}"),
         value => value.to_string(),
     };
     let mut cells = vec![name.to_owned(), figure("strokes"), figure("refused"), figure("segments")];

@@ -8,14 +8,28 @@ use anyhow::{Result, bail};
 pub(crate) enum Outcome {
     /// It ran and found nothing wrong; the note says what it saw.
     Passed(String),
+    /// It ran and nothing became worse, but the named goals are not reached.
+    Short(String),
     /// It did not run, for this reason.
     Skipped(String),
 }
 
 enum Verdict {
     Passed,
+    Short,
     Failed,
     Skipped,
+}
+
+impl Verdict {
+    fn word(&self) -> &'static str {
+        match self {
+            Self::Passed => "ok",
+            Self::Short => "SHORT",
+            Self::Failed => "FAILED",
+            Self::Skipped => "SKIPPED",
+        }
+    }
 }
 
 struct Row {
@@ -39,16 +53,12 @@ impl Steps {
         let begun = Instant::now();
         let (verdict, note) = match body() {
             Ok(Outcome::Passed(note)) => (Verdict::Passed, note),
+            Ok(Outcome::Short(goals)) => (Verdict::Short, goals),
             Ok(Outcome::Skipped(reason)) => (Verdict::Skipped, reason),
             Err(error) => (Verdict::Failed, format!("{error:#}")),
         };
         let seconds = begun.elapsed().as_secs_f64();
-        let word = match verdict {
-            Verdict::Passed => "ok",
-            Verdict::Failed => "FAILED",
-            Verdict::Skipped => "SKIPPED",
-        };
-        println!("---- {word} in {seconds:.1} s: {note}");
+        println!("---- {} in {seconds:.1} s: {note}", verdict.word());
         self.rows.push(Row { name, verdict, note, seconds });
     }
 
@@ -56,29 +66,32 @@ impl Steps {
     pub(crate) fn finish(self) -> Result<()> {
         println!("\n==== Summary");
         for row in &self.rows {
-            let word = match row.verdict {
-                Verdict::Passed => "ok",
-                Verdict::Failed => "FAILED",
-                Verdict::Skipped => "SKIPPED",
-            };
             let note = row.note.lines().next().unwrap_or_default();
-            println!("{word:>8} {:>7.1} s  {:<34} {note}", row.seconds, row.name);
+            println!("{:>8} {:>7.1} s  {:<34} {note}", row.verdict.word(), row.seconds, row.name);
         }
         let count = |f: fn(&Verdict) -> bool| self.rows.iter().filter(|row| f(&row.verdict)).count();
         let passed = count(|v| matches!(v, Verdict::Passed));
+        let short = count(|v| matches!(v, Verdict::Short));
         let failed = count(|v| matches!(v, Verdict::Failed));
         let skipped = count(|v| matches!(v, Verdict::Skipped));
         if skipped > 0 {
             println!("\n{skipped} SKIPPED: this run proves less than it could");
         }
-        println!("\n{passed} passed, {failed} failed");
+        if short > 0 {
+            println!("\n{short} SHORT OF GOAL: no worse than what is held, but not what is wanted");
+        }
+        println!("\n{passed} passed, {short} short of goal, {failed} failed, in {:.0} s", self.seconds());
         if failed > 0 {
             bail!("{failed} of {} steps failed", self.rows.len());
         }
-        if passed == 0 {
+        if passed + short == 0 {
             bail!("nothing ran");
         }
         Ok(())
+    }
+
+    fn seconds(&self) -> f64 {
+        self.rows.iter().map(|row| row.seconds).sum()
     }
 }
 
@@ -105,6 +118,13 @@ mod tests {
         steps.step("absent", || Ok(Outcome::Skipped("not here".into())));
         assert!(steps.finish().is_err());
         assert!(Steps::default().finish().is_err());
+    }
+
+    #[test]
+    fn a_step_short_of_its_goal_does_not_fail_the_run() {
+        let mut steps = Steps::default();
+        steps.step("near", || Ok(Outcome::Short("2, the goal is 1".into())));
+        assert!(steps.finish().is_ok());
     }
 
     #[test]

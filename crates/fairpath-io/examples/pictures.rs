@@ -11,12 +11,13 @@ use fairpath_io::{
     Error, Failure, ReadOptions, SplineEntry, SplineFile, WriteOptions, read_strokes, write_splines, write_whole,
 };
 use std::path::Path;
+use std::process::ExitCode;
 
-fn main() -> Result<(), Error> {
+fn main() -> Result<ExitCode, Error> {
     let args: Vec<String> = std::env::args().skip(1).collect();
     let [input, output, words @ ..] = args.as_slice() else {
         eprintln!("usage: pictures IN OUT.png|.svg [sheet] [comb] [stages]");
-        std::process::exit(2);
+        return Ok(ExitCode::from(2));
     };
     let strokes = read_strokes(Path::new(input), &ReadOptions::default())?;
     let mut splines = SplineFile { unit: strokes.unit, y: strokes.y, ..SplineFile::default() };
@@ -46,9 +47,10 @@ fn main() -> Result<(), Error> {
         for warning in write_splines(Path::new(output), &splines, Some(&strokes), &WriteOptions::default())? {
             eprintln!("{}: {}", warning.code, warning.text);
         }
-        return Ok(());
+        return Ok(ExitCode::SUCCESS);
     }
     let picture = draw_splines(&splines, Some(&strokes), &options);
     let bytes = if output.ends_with(".svg") { picture.to_svg().as_bytes().to_vec() } else { picture.to_png()? };
-    write_whole(Path::new(output), &bytes)
+    write_whole(Path::new(output), &bytes)?;
+    Ok(ExitCode::SUCCESS)
 }

@@ -6,16 +6,18 @@ use crate::drawable::{Drawable, drawable_points};
 use crate::spline_file::SplineFile;
 use crate::stroke_file::StrokeFile;
 use crate::unit::YAxis;
-use fairpath_curve::{Continuity, Point, Spline};
+use fairpath_curve::{Continuity, Point, Spline, Tooth};
 use fairpath_fit::Stroke;
 use kurbo::{BezPath, Rect, Vec2};
 
 /// Part of the page's longer side that stays white on each side.
 const MARGIN: f64 = 0.05;
-/// The comb's highest teeth, but for the sharpest few, as a part of the drawing's larger extent.
-const COMB_HEIGHT: f64 = 0.125;
+/// The comb's highest teeth, but for the sharpest few, as a part of the largest spline's extent.
+const COMB_HEIGHT: f64 = 0.1;
 /// The part of all teeth that may stand higher than that.
 const COMB_OUTLIERS: f64 = 0.02;
+/// Teeth that would stand higher than so many times that are cut off, lest one sharp place hide the drawing.
+const COMB_CUT: f64 = 2.0;
 /// Teeth of the comb along a line across the page.
 const TEETH: f64 = 220.0;
 
@@ -104,33 +106,49 @@ pub(crate) fn thinned(points: impl Iterator<Item = Point>) -> impl Iterator<Item
 pub(crate) struct CombScale {
     /// Tooth length over curvature; nothing without a comb.
     scale: Option<f64>,
+    /// Longest tooth.
+    longest: f64,
     spacing: f64,
 }
 
 impl CombScale {
     /// The comb with about `teeth` teeth along a line across the drawing.
     pub(crate) fn of<'a>(comb: Comb, splines: impl Iterator<Item = &'a Spline>, bounds: Rect, teeth: f64) -> Self {
-        let size = bounds.width().max(bounds.height());
-        let spacing = size / teeth;
+        let spacing = bounds.width().max(bounds.height()) / teeth;
+        let mut longest = f64::INFINITY;
         let scale = match comb {
             Comb::Off => None,
             Comb::Scale(scale) => Some(scale).filter(|s| s.is_finite()),
             Comb::Auto => {
-                let teeth = splines.flat_map(|s| s.comb(spacing, 0.0));
-                let mut curvatures: Vec<f64> = teeth.map(|t| t.curvature.abs()).filter(|k| *k > 0.0).collect();
+                let mut height: f64 = 0.0;
+                let mut teeth = Vec::new();
+                for spline in splines {
+                    let own = spline.bounding_box();
+                    height = height.max(COMB_HEIGHT * own.width().max(own.height()));
+                    teeth.extend(spline.comb(spacing, 0.0));
+                }
+                longest = COMB_CUT * height;
+                let mut curvatures: Vec<f64> = teeth.iter().map(|t| t.curvature.abs()).filter(|k| *k > 0.0).collect();
                 curvatures.sort_by(f64::total_cmp);
                 let rank = ((1.0 - COMB_OUTLIERS) * curvatures.len() as f64) as usize;
-                curvatures.get(rank.min(curvatures.len().saturating_sub(1))).map(|k| COMB_HEIGHT * size / k)
+                curvatures.get(rank.min(curvatures.len().saturating_sub(1))).map(|k| height / k)
             }
         };
-        Self { scale: scale.filter(|_| spacing > 0.0), spacing }
+        Self { scale: scale.filter(|_| spacing > 0.0), longest, spacing }
+    }
+
+    /// Where a tooth ends in the picture.
+    fn tip(&self, tooth: &Tooth) -> Point {
+        let whole = tooth.tip - tooth.base;
+        let length = whole.hypot();
+        if length > self.longest { tooth.base + whole * (self.longest / length) } else { tooth.tip }
     }
 
     /// The box around the comb too, but not farther than the drawing's own size.
     pub(crate) fn widened<'a>(&self, bounds: Rect, splines: impl Iterator<Item = &'a Spline>) -> Rect {
         let Some(scale) = self.scale else { return bounds };
         let most = 0.5 * bounds.width().max(bounds.height());
-        let tips = splines.flat_map(|s| s.comb(self.spacing, scale)).map(|t| t.tip);
+        let tips = splines.flat_map(|s| s.comb(self.spacing, scale)).map(|t| self.tip(&t));
         tips.fold(bounds, |b, p| b.union_pt(p)).intersect(bounds.inflate(most, most))
     }
 }
@@ -181,7 +199,7 @@ impl Pen {
         for t in &teeth {
             let corner = |i: usize| spline.joins().get(i) == Some(&Continuity::G0);
             let new = before != Some(t.segment);
-            let tip = view.point(t.tip);
+            let tip = view.point(comb.tip(t));
             if before.is_none() || new && before.is_some_and(corner) {
                 tips.move_to(tip);
             } else {
