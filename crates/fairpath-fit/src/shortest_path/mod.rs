@@ -38,22 +38,29 @@ pub(crate) fn fit(
         cleaned = clean(&reversed, options.pixel_size)?;
     }
     let mut fit = solve(stroke, &cleaned, options, observer, stages.as_deref_mut())?;
-    let strays = |f: &Fit| f.report.max_deviation > STRAY * options.max_error * options.pixel_size;
-    if strays(&fit) {
+    // How far the curve is from what was drawn: a loop that nobody drew shows in its length.
+    let drawn: f64 = stroke.points.windows(2).map(|p| (p[1] - p[0]).hypot2().sqrt()).sum();
+    let far = STRAY * options.max_error * options.pixel_size;
+    let astray = |f: &Fit| f.report.max_deviation.max(0.5 * (f.spline.length() - LONGER * drawn));
+    if astray(&fit) > far {
         // Somewhere the costs accepted what nobody would: the stroke is fitted once more, more closely.
         let mut own = Stages::default();
         let close = solve(stroke, &cleaned, &closer(options), observer, stages.is_some().then_some(&mut own))?;
-        if close.report.max_deviation < fit.report.max_deviation {
+        if astray(&close) < astray(&fit) {
             fit = close;
             if let Some(stages) = stages.as_deref_mut() {
                 *stages = own;
             }
         }
     }
-    if strays(&fit) {
+    if astray(&fit) > far {
         fit.warnings.push(Warning {
             code: "far-from-stroke".into(),
-            text: format!("the curve is up to {:.3} away from the stroke", fit.report.max_deviation),
+            text: format!(
+                "the curve is up to {:.3} away from the stroke, which is {drawn:.3} long; the curve is {:.3}",
+                fit.report.max_deviation,
+                fit.spline.length()
+            ),
         });
     }
     if backward {
@@ -65,6 +72,9 @@ pub(crate) fn fit(
     observer.step(Step::Done);
     Ok(fit)
 }
+
+/// A curve may be longer than its stroke by this factor: many corners drawn out to their tips add up.
+const LONGER: f64 = 1.01;
 
 /// A curve further than this many times `max_error` from its stroke is fitted again.
 const STRAY: f64 = 1.4;
