@@ -15,8 +15,10 @@ pub(crate) struct Candidate {
     pub(crate) last: u32,
     pub(crate) primitive: Primitive,
     pub(crate) length: f64,
-    /// Largest distance of the data to it, px: τ of equation 2.
+    /// Its deviation as costs count it, px: τ of section 3.4.
     pub(crate) error: f64,
+    /// Largest distance of the data to it, px (equation 2).
+    pub(crate) largest: f64,
     /// Sum of the weights of its data, px.
     pub(crate) weight: f64,
     /// Its state where it may be joined: at its first and second sample, and at its last and last but one.
@@ -322,6 +324,7 @@ fn make(
         primitive: *primitive,
         length,
         error,
+        largest: normal.max,
         weight: normal.weight,
         head: [JoinState::NONE; 2],
         tail: [JoinState::NONE; 2],

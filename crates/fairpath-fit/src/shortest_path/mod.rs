@@ -15,7 +15,7 @@ use crate::result::{self, Fit, FitError, Observer, Report, Stages, Step, Warning
 use crate::stroke::Stroke;
 use crate::track::{Shape, Track, prepare};
 use chain::Chain;
-use fairpath_curve::{Continuity, Point, Segment, Spline, Vec2, trig};
+use fairpath_curve::{Continuity, Point, Segment, Spline, trig};
 use graph::{Graph, Node, Path};
 use merge::{Effort, merge};
 
@@ -207,16 +207,17 @@ fn merge_path(graph: &Graph, path: &Path, track: &Track, options: &FitOptions) -
     Some((chain.pieces.iter().map(chain::Piece::segment).collect(), chain.joins, closed))
 }
 
-/// The samples joined by lines: what is left where nothing fits.
+/// The points joined by lines: what is left where nothing fits.
 fn polyline(track: &Track) -> Parts {
     let closed = track.shape != Shape::Open;
-    let points: Vec<Vec2> = (0..=track.turn).map(|i| track.all.sample(i)).collect();
+    let points = track.all.run(0, track.turn);
     let segments: Vec<Segment> = points
         .windows(2)
-        .filter(|p| p[0] != p[1])
-        .map(|p| Segment::line(p[0].to_point(), trig::angle_of(p[1] - p[0]), (p[1] - p[0]).hypot2().sqrt()))
+        .map(|p| (p[0].point, p[1].point - p[0].point))
+        .filter(|(_, edge)| edge.hypot2() > 0.0)
+        .map(|(start, edge)| Segment::line(start.to_point(), trig::angle_of(edge), edge.hypot2().sqrt()))
         .collect();
-    let joins = vec![Continuity::G0; segments.len() - usize::from(!closed)];
+    let joins = vec![Continuity::G0; segments.len().saturating_sub(usize::from(!closed))];
     (segments, joins, closed)
 }
 
@@ -269,7 +270,7 @@ fn stages(graph: &Graph, path: Option<&Path>, track: &Track, cleaned: &Cleaned) 
                 segment: restored(&c.primitive.segment(c.length), cleaned),
                 first: c.first as usize,
                 last: c.last as usize,
-                error: c.error * cleaned.scale,
+                error: c.largest * cleaned.scale,
             })
             .collect(),
         path: path
