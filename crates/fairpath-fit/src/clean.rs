@@ -133,8 +133,11 @@ const LATTICE_SHARE: f64 = 0.75;
 /// Averages neighbours where the points lie denser than [`DENSEST`]; the ends stay.
 fn thin(points: &[Vec2]) -> Vec<Vec2> {
     let n = points.len();
-    let spacing: f64 = points.windows(2).map(|p| distance(p[0], p[1])).sum::<f64>() / (n.max(2) - 1) as f64;
-    if n < 8 || spacing >= DENSEST {
+    let length: f64 = points.windows(2).map(|p| distance(p[0], p[1])).sum();
+    // A drawing of a few pixels keeps its shape.
+    let densest = DENSEST.min(length / 16.0);
+    let spacing = length / (n.max(2) - 1) as f64;
+    if n < 8 || spacing >= densest {
         return points.to_vec();
     }
     let mut out = vec![points[0]];
@@ -143,7 +146,7 @@ fn thin(points: &[Vec2]) -> Vec<Vec2> {
         sum += pair[1];
         count += 1.0;
         length += distance(pair[0], pair[1]);
-        if length >= DENSEST {
+        if length >= densest {
             out.push(sum / count);
             (sum, count, length) = (Vec2::ZERO, 0.0, 0.0);
         }

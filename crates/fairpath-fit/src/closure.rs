@@ -74,8 +74,15 @@ pub(crate) fn close(points: &[Vec2], options: &FitOptions) -> Option<Closed> {
     if !bridged || distance(moved[0], moved[m - 1]) < 0.5 {
         moved.pop();
     }
+    // A straight line that is told to close collapses: it has no inside.
+    if Polyline::new(moved.clone()).length() < LEAST_TURN * length {
+        return None;
+    }
     Some(Closed { points: moved, trimmed: i + n - 1 - j })
 }
+
+/// Least length of what closing leaves, as a share of the stroke's.
+const LEAST_TURN: f64 = 0.1;
 
 /// Ends that pass each other at more than this were not meant to meet, px: spreading the gap would move both by half of it.
 const WIDEST_SPREAD: f64 = 9.0;

@@ -3,6 +3,7 @@
 mod clean;
 mod closure;
 mod corners;
+mod direction;
 mod linear;
 mod options;
 mod polyline;

@@ -182,7 +182,7 @@ pub struct FitOptions {
     /// Largest share of the stroke's length that `free_error` may be: a small letter is drawn more finely. 1 leaves the paper's rule.
     #[schemars(extend("unit" = "1"))]
     pub free_share: f64,
-    /// Cost of an inflection (sections 3.4 and 3.8).
+    /// Cost of an inflection (sections 3.4 and 3.8); its author settled on 20 later.
     #[schemars(extend("unit" = "cost"))]
     pub inflection_cost: f64,
     /// Sample intervals by which primitives overlap at a G2 join (section 3.4): 0, 1 or 2.
@@ -249,7 +249,7 @@ impl FitOptions {
             shortness_cost: 0.5,
             short_length: 30.0,
             free_share: 0.01,
-            inflection_cost: 20.0,
+            inflection_cost: 15.0,
             g2_overlap: 2,
             g1_overlap: 1,
             transitions: Transitions::Covariance,
@@ -289,6 +289,7 @@ impl FitOptions {
                 points_per_circle: 15.0,
                 sample_share: 1.0,
                 error_cost: 1.0,
+                inflection_cost: 20.0,
                 deviation: Deviation::Max,
                 free_share: 1.0,
                 shortness_cost: 2.0,

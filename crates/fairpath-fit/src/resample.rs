@@ -15,6 +15,15 @@ pub(crate) struct Rate {
 /// Neighbourhood on each side for curvature, in steps of a staircase.
 const GRAIN_WINDOW: f64 = 5.0;
 
+/// Points on a lattice lie exactly on the border of a window: rounding may not decide on which side, px.
+const HAIR: f64 = 1e-6;
+
+/// Curvature of a run of points: one Gauss–Newton step from a circle through three of them is near enough to place samples.
+fn bend(run: &[Datum]) -> f64 {
+    let fit = walk_arc(&circle_through(run), run, 1.0);
+    fit.primitive.kappa.abs().min((fit.primitive.kappa + fit.normal.step(3).map_or(0.0, |s| s[2])).abs())
+}
+
 /// Estimates the rate from the curvature at the vertices.
 pub(crate) fn rate(line: &Polyline, grain: f64, options: &FitOptions) -> Rate {
     let window = options.curvature_window.max(GRAIN_WINDOW * grain);
@@ -22,12 +31,13 @@ pub(crate) fn rate(line: &Polyline, grain: f64, options: &FitOptions) -> Rate {
     let data: Vec<Datum> =
         line.points.iter().zip(&line.s).map(|(&point, &s)| Datum { point, s, weight: 1.0 }).collect();
     let (mut first, mut last) = (0, 0);
+    let mut reversed = Vec::new();
     let mut at_vertex: Vec<f64> = Vec::with_capacity(n);
     for i in 0..n {
-        while line.s[i] - line.s[first] > window {
+        while line.s[i] - line.s[first] > window + HAIR {
             first += 1;
         }
-        while last + 1 < n && line.s[last + 1] - line.s[i] <= window {
+        while last + 1 < n && line.s[last + 1] - line.s[i] <= window + HAIR {
             last += 1;
         }
         // Where the points are sparse the window takes in one neighbour on each side all the same.
@@ -35,10 +45,11 @@ pub(crate) fn rate(line: &Polyline, grain: f64, options: &FitOptions) -> Rate {
         let curvature = if b - a < 2 {
             0.0
         } else {
-            // One Gauss–Newton step from a circle through three of the points is near enough to place samples.
+            // Seen from both ends, so that it does not matter which way the stroke was drawn.
             let run = &data[a..=b];
-            let fit = walk_arc(&circle_through(run), run, 1.0);
-            fit.primitive.kappa.abs().min((fit.primitive.kappa + fit.normal.step(3).map_or(0.0, |s| s[2])).abs())
+            reversed.clear();
+            reversed.extend(run.iter().rev());
+            0.5 * (bend(run) + bend(&reversed))
         };
         let wanted = std::f64::consts::TAU / (options.points_per_circle * curvature.max(1e-9));
         at_vertex.push(wanted.clamp(options.min_sampling, options.max_sampling));
@@ -73,33 +84,45 @@ pub(crate) fn resample(line: &Polyline, rate: &Rate, from: f64, to: f64, options
     s
 }
 
-/// Visits `[from, to]` in pieces no longer than a fraction of the rate: `visit(start, length, rate)`.
-fn pieces(line: &Polyline, rate: &Rate, from: f64, to: f64, mut visit: impl FnMut(f64, f64, f64)) {
+/// The stretches of `[from, to]` on which the rate is linear: start, length, rate at start and at end.
+fn pieces(line: &Polyline, rate: &Rate, from: f64, to: f64) -> Vec<[f64; 4]> {
+    let mut out = Vec::new();
     let mut edge = line.s.partition_point(|&s| s <= from).saturating_sub(1).min(line.s.len() - 2);
-    let mut s = from;
-    while s < to {
-        while edge + 2 < line.s.len() && line.s[edge + 1] <= s {
-            edge += 1;
+    while edge + 1 < line.s.len() && line.s[edge] < to {
+        let (a, b) = (line.s[edge].max(from), line.s[edge + 1].min(to));
+        // Where the cones of both vertices cut each other.
+        let slope = (rate.at_vertex[edge + 1] - rate.at_vertex[edge]) / (2.0 * rate.falloff);
+        let top = (0.5 * (line.s[edge] + line.s[edge + 1]) + if slope.is_finite() { slope } else { 0.0 }).clamp(a, b);
+        for (p, q) in [(a, top), (top, b)] {
+            if q > p {
+                out.push([p, q - p, rate.at(line, edge, p), rate.at(line, edge, q)]);
+            }
         }
-        let here = rate.at(line, edge, s);
-        let end = if edge + 2 < line.s.len() { line.s[edge + 1].min(to) } else { to };
-        let step = (0.25 * here).min(end - s);
-        if step <= 0.0 {
-            break;
-        }
-        visit(s, step, rate.at(line, edge, s + 0.5 * step));
-        s += step;
+        edge += 1;
+    }
+    out
+}
+
+/// `∫ ds / r` over a stretch on which `r` is linear.
+fn steps(length: f64, r0: f64, r1: f64) -> f64 {
+    // The logarithm through its series where the ends differ little.
+    let x = (r1 - r0) / (r1 + r0);
+    if x.abs() < 1e-3 {
+        2.0 * length / (r0 + r1) * (1.0 + x * x / 3.0)
+    } else {
+        length / (r1 - r0) * libm::log(r1 / r0)
     }
 }
 
 /// Samples at equal steps of `∫ ds / r(s)`: the same set of places whichever way the stroke was drawn.
 fn even(line: &Polyline, rate: &Rate, from: f64, to: f64, options: &FitOptions) -> Vec<f64> {
-    let mut density = vec![(from, 0.0)];
+    let parts = pieces(line, rate, from, to);
+    let mut before = Vec::with_capacity(parts.len() + 1);
     let mut total = 0.0;
-    pieces(line, rate, from, to, |s, step, r| {
-        total += step / r;
-        density.push((s + step, total));
-    });
+    for &[_, length, r0, r1] in &parts {
+        before.push(total);
+        total += steps(length, r0, r1);
+    }
     let fewest = if to - from >= 3.0 * options.min_sampling { 3.0 } else { 1.0 };
     // A hair is taken off so that rounding cannot decide between n and n + 1.
     let count = (total - 1e-6).ceil().max(fewest);
@@ -107,12 +130,16 @@ fn even(line: &Polyline, rate: &Rate, from: f64, to: f64, options: &FitOptions) 
     let mut i = 0;
     for k in 0..=count as usize {
         let target = total * k as f64 / count;
-        while i + 2 < density.len() && density[i + 1].1 < target {
+        while i + 1 < parts.len() && before[i + 1] < target {
             i += 1;
         }
-        let ((s0, d0), (s1, d1)) = (density[i], density[(i + 1).min(density.len() - 1)]);
-        let u = if d1 > d0 { ((target - d0) / (d1 - d0)).clamp(0.0, 1.0) } else { 0.0 };
-        out.push(s0 + (s1 - s0) * u);
+        let Some(&[s, length, r0, r1]) = parts.get(i) else { break };
+        let left = target - before[i];
+        let grow = (r1 - r0) / length;
+        // The inverse of the logarithm above.
+        let x = grow * left;
+        let ds = if x.abs() < 1e-6 { r0 * left * (1.0 + 0.5 * x) } else { r0 * libm::expm1(x) / grow };
+        out.push(s + ds.clamp(0.0, length));
     }
     out
 }
@@ -121,14 +148,19 @@ fn even(line: &Polyline, rate: &Rate, from: f64, to: f64, options: &FitOptions) 
 fn greedy(line: &Polyline, rate: &Rate, from: f64, to: f64) -> Vec<f64> {
     let mut out = vec![from];
     let (mut last, mut lowest) = (from, f64::INFINITY);
-    pieces(line, rate, from, to, |s, step, r| {
-        lowest = lowest.min(r);
-        if s + step - last >= lowest {
-            last += lowest.min(s + step - last);
-            out.push(last);
-            lowest = r;
+    for [start, length, r0, r1] in pieces(line, rate, from, to) {
+        let count = (4.0 * length / r0.min(r1)).ceil().max(1.0);
+        for k in 0..count as usize {
+            let (u, end) = ((k as f64 + 0.5) / count, start + length * (k + 1) as f64 / count);
+            let r = r0 + (r1 - r0) * u;
+            lowest = lowest.min(r);
+            if end - last >= lowest {
+                last += lowest.min(end - last);
+                out.push(last);
+                lowest = r;
+            }
         }
-    });
+    }
     if out.len() < 2 {
         out.push(to);
         return out;

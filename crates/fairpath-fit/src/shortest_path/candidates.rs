@@ -46,9 +46,14 @@ impl Candidate {
     }
 
     pub(crate) fn has_inflection(&self) -> bool {
-        self.primitive.kappa * self.curvature_at_end() < 0.0
+        // Rounding gives a straight run curvatures of either sign.
+        let (a, b) = (self.primitive.kappa, self.curvature_at_end());
+        a * b < 0.0 && a.abs().min(b.abs()) * self.length > FLAT
     }
 }
+
+/// Turning of a primitive that has no sign, radians.
+const FLAT: f64 = 1e-9;
 
 /// Penalty of deviation: `p(τ) = w_E max(τ − 1, 0)²` (section 3.4).
 #[inline]
@@ -260,7 +265,11 @@ fn constrained(
         if !(fit.normal.max <= options.max_error) || !(fit.length > 0.0) || p.sharpness == 0.0 {
             continue;
         }
-        out.push(make(family, &p, fit.length, &fit.normal, span, track, options));
+        // Setting it moves the far end of a long or tight one: it is measured as it is now.
+        let exact = walk(&p, data, options.end_factor);
+        if exact.normal.max <= options.max_error {
+            out.push(make(family, &p, fit.length, &exact.normal, span, track, options));
+        }
     }
 }
 

@@ -36,6 +36,10 @@ const GAP_STIFFNESS: f64 = 30.0;
 /// Gaps that one full step closes anyway, px: while they are smaller they do not hold up the descent.
 const SMALL_GAP: f64 = 0.05;
 
+/// Damping to begin with, relative to the energy: for pieces that meet already, and for those that must first be brought together.
+const JOINED: f64 = 1e-2;
+const APART: f64 = 0.2;
+
 /// By how much, relatively, a step may raise the energy, since closing a small gap may cost a little.
 const SLACK: f64 = 1e-4;
 
@@ -85,7 +89,7 @@ pub(crate) fn merge(chain: &mut Chain, effort: Effort) -> Option<Measured> {
     let mut now = chain.measure();
     let mut misfit = gaps(chain) + closure.misfit(&chain.pieces);
     // Damping relative to the energy.
-    let mut relative = 1.0_f64;
+    let mut relative = if misfit < SMALL_GAP { JOINED } else { APART };
     let mut replans = 0;
     for _ in 0..effort.rounds {
         let Some(plan) = backward(chain, &now, relative * (now.energy + 1.0), &closure, &held) else {
@@ -650,7 +654,7 @@ fn forward(chain: &mut Chain, old: &[Piece], plan: &Plan, step: f64, held: &[Hel
                     // Let go where the cost falls towards the inside.
                     let slope = law.slope[i] + (0..Z).map(|c| law.slope_gain[i][c] * input[c]).sum::<f64>();
                     let gain = slope * reach(&old[k], i);
-                    if q[i] <= low { gain > -WORTH_LETTING_GO } else { gain < WORTH_LETTING_GO }
+                    (q[i] <= low && gain > -WORTH_LETTING_GO) || (q[i] >= high && gain < WORTH_LETTING_GO)
                 } else {
                     wanted < low || wanted > high
                 };

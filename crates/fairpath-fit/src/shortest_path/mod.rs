@@ -9,12 +9,13 @@ mod search;
 mod transition;
 
 use crate::clean::{Cleaned, clean};
-use crate::options::FitOptions;
+use crate::direction::{is_backward, turn_stages_round, turned_round};
+use crate::options::{Closing, FitOptions};
 use crate::result::{self, Fit, FitError, Observer, Report, Stages, Step, Warning};
 use crate::stroke::Stroke;
 use crate::track::{Shape, Track, prepare};
 use chain::Chain;
-use fairpath_curve::{Continuity, Segment, Spline, Vec2, trig};
+use fairpath_curve::{Continuity, Point, Segment, Spline, Vec2, trig};
 use graph::{Graph, Node, Path};
 use merge::{Effort, merge};
 
@@ -30,7 +31,12 @@ pub(crate) fn fit(
 ) -> Result<Fit, FitError> {
     options.validate()?;
     observer.step(Step::Preprocess);
-    let cleaned = clean(&stroke.points, options.pixel_size)?;
+    let mut cleaned = clean(&stroke.points, options.pixel_size)?;
+    let backward = is_backward(&stroke.points);
+    if backward {
+        let reversed: Vec<Point> = stroke.points.iter().rev().copied().collect();
+        cleaned = clean(&reversed, options.pixel_size)?;
+    }
     let mut fit = solve(stroke, &cleaned, options, observer, stages.as_deref_mut())?;
     let strays = |f: &Fit| f.report.max_deviation > STRAY * options.max_error * options.pixel_size;
     if strays(&fit) {
@@ -39,7 +45,7 @@ pub(crate) fn fit(
         let close = solve(stroke, &cleaned, &closer(options), observer, stages.is_some().then_some(&mut own))?;
         if close.report.max_deviation < fit.report.max_deviation {
             fit = close;
-            if let Some(stages) = stages {
+            if let Some(stages) = stages.as_deref_mut() {
                 *stages = own;
             }
         }
@@ -49,6 +55,12 @@ pub(crate) fn fit(
             code: "far-from-stroke".into(),
             text: format!("the curve is up to {:.3} away from the stroke", fit.report.max_deviation),
         });
+    }
+    if backward {
+        fit = turned_round(fit);
+        if let Some(stages) = stages {
+            turn_stages_round(stages);
+        }
     }
     observer.step(Step::Done);
     Ok(fit)
@@ -79,10 +91,16 @@ fn solve(
     mut stages: Option<&mut Stages>,
 ) -> Result<Fit, FitError> {
     observer.step(Step::Preprocess);
+    let mut warnings = Vec::new();
     let track = prepare(cleaned, options);
+    if options.closed == Closing::Yes && track.shape == Shape::Open {
+        warnings.push(Warning {
+            code: "not-closed".into(),
+            text: "the stroke was to be closed, but nothing would remain of it; it is fitted as an open one".into(),
+        });
+    }
     let length = track.all.station(track.turn);
     let options = &FitOptions { free_error: options.free_error.min(options.free_share * length), ..options.clone() };
-    let mut warnings = Vec::new();
     if track.trimmed > 0 {
         warnings.push(Warning {
             code: "closed-by-trimming".into(),
