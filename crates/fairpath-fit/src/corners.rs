@@ -30,6 +30,9 @@ const NARROW_SHARE: f64 = 0.5;
 /// Arc lengths of the corners, increasing; the ends of an open stroke are not among them.
 pub(crate) fn corners(line: &Polyline, closed: bool, grain: f64, options: &FitOptions) -> Vec<f64> {
     let length = line.length();
+    if length < SPACING {
+        return Vec::new();
+    }
     // What is small is drawn finely: its corners are looked for in smaller neighbourhoods.
     let fineness = (length / FULL_SIZE).clamp(FINEST, 1.0);
     let count = round((length / (fineness * SPACING)).min(MOST_POINTS)).max(1.0) as usize;
