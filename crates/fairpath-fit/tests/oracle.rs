@@ -231,7 +231,7 @@ fn samples_lie_on_the_stroke_in_order_and_their_spacing_changes_as_slowly_as_ask
         assert!(n >= 4, "{n} strokes");
         // Where a stroke retraces itself the arc length of a sample is not to be told from its place.
         let uneven = uneven.into_inner();
-        assert!(uneven * 50 <= n, "{uneven} of {n} strokes are sampled unevenly");
+        assert!(uneven * 20 <= n, "{uneven} of {n} strokes are sampled unevenly");
     }
 }
 
