@@ -1,4 +1,18 @@
-//! Fair curves from rough strokes.
+//! Fair curves from rough strokes: points in, a [`fairpath_curve::Spline`] of lines, arcs and clothoids with exact joins out, by the
+//! shortest-path method of Baran, Lehtinen and Popović (2010).
+//!
+//! - Fit a stroke: [`fit`]. Watch its steps or keep every intermediate result: [`fit_observed`].
+//! - Choose between fewer segments and less deviation: [`FitOptions::preset`], [`Preset`].
+//!
+//! ```
+//! use fairpath_curve::Point;
+//! use fairpath_fit::{FitOptions, Stroke, fit};
+//!
+//! let points = (0..60).map(|i| Point::new(f64::from(i) * 4.0, 0.02 * f64::from(i * i))).collect();
+//! let result = fit(&Stroke::new("bend", points), &FitOptions::default())?;
+//! assert!(result.report.max_deviation < 2.0);
+//! # Ok::<(), fairpath_fit::FitError>(())
+//! ```
 
 mod clean;
 mod closure;
@@ -19,10 +33,13 @@ pub use options::{Closing, Deviation, FitOptions, Preset, Resampling, Search, Tr
 pub use result::{Candidate, Fit, FitError, Observer, Report, Stages, Step, Warning};
 pub use stroke::Stroke;
 
-/// The fair curve of a stroke.
+/// The fair curve of a stroke, in the stroke's unit and frame. Lengths among the options are in px of `options.pixel_size` units.
+///
+/// Deviations are not bounded beforehand; the report states what was measured, and a warning says where it is large.
 ///
 /// # Errors
-/// When the stroke is a dot, has coordinates that are not finite, or an option is out of range.
+/// When the stroke is a dot, is too large for its pixels, has coordinates that are not finite, when an option is out of range, or
+/// when not even a polyline can be made of the points.
 pub fn fit(stroke: &Stroke, options: &FitOptions) -> Result<Fit, FitError> {
     fit_observed(stroke, options, &mut (), None)
 }
