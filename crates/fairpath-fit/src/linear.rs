@@ -1,7 +1,7 @@
 //! Small dense linear algebra: symmetric positive definite systems of a few unknowns.
 
 /// Cholesky factor of the leading `n × n` block of a symmetric matrix, in place in the lower triangle; false if a pivot is not
-/// above `floor` times its diagonal entry.
+/// above `floor` times its diagonal entry. The diagonal has the reciprocals of the factor's, which is what solving needs.
 #[inline]
 pub(crate) fn cholesky<const N: usize>(a: &mut [[f64; N]; N], n: usize, floor: f64) -> bool {
     for j in 0..n {
@@ -14,9 +14,8 @@ pub(crate) fn cholesky<const N: usize>(a: &mut [[f64; N]; N], n: usize, floor: f
         if !(d > limit && d > 0.0) {
             return false;
         }
-        let d = d.sqrt();
-        a[j][j] = d;
-        let inverse = 1.0 / d;
+        let inverse = 1.0 / d.sqrt();
+        a[j][j] = inverse;
         for i in j + 1..n {
             let mut v = a[i][j];
             for k in 0..j {
@@ -28,21 +27,28 @@ pub(crate) fn cholesky<const N: usize>(a: &mut [[f64; N]; N], n: usize, floor: f
     true
 }
 
-/// Solves with a factor from [`cholesky`], in place.
+/// Solves with the lower triangle of a factor from [`cholesky`], in place: the inner product of two such solutions is that of the
+/// inverse matrix.
 #[inline]
-pub(crate) fn solve<const N: usize>(l: &[[f64; N]; N], n: usize, b: &mut [f64; N]) {
+pub(crate) fn solve_lower<const N: usize>(l: &[[f64; N]; N], n: usize, b: &mut [f64; N]) {
     for i in 0..n {
         let mut v = b[i];
         for k in 0..i {
             v -= l[i][k] * b[k];
         }
-        b[i] = v / l[i][i];
+        b[i] = v * l[i][i];
     }
+}
+
+/// Solves with a factor from [`cholesky`], in place.
+#[inline]
+pub(crate) fn solve<const N: usize>(l: &[[f64; N]; N], n: usize, b: &mut [f64; N]) {
+    solve_lower(l, n, b);
     for i in (0..n).rev() {
         let mut v = b[i];
         for k in i + 1..n {
             v -= l[k][i] * b[k];
         }
-        b[i] = v / l[i][i];
+        b[i] = v * l[i][i];
     }
 }

@@ -1,7 +1,7 @@
 //! Least-squares fit of a line, an arc or a clothoid to a run of points, by Gauss–Newton on the true distances.
 
 use crate::linear::{cholesky, solve};
-use crate::walk::{Datum, Primitive, Walker};
+use crate::walk::{Datum, Foot, Primitive, Walker};
 use fairpath_curve::{Vec2, trig};
 
 /// Normal equations of the distances of a run of points to a primitive.
@@ -151,11 +151,17 @@ const NEARLY_STRAIGHT: f64 = 1e-2;
 /// Walks along `data`, the ends counting `end_factor` times their weight (equation 1), after moving the primitive's start to the
 /// foot of the first point.
 pub(crate) fn walk(primitive: &Primitive, data: &[Datum], end_factor: f64) -> Walked {
+    walk_near(primitive, data, end_factor, &mut Vec::with_capacity(data.len()))
+}
+
+/// As [`walk`], given about where the `feet` of the first so many data are, by arc length; gives those of all.
+pub(crate) fn walk_near(primitive: &Primitive, data: &[Datum], end_factor: f64, feet: &mut Vec<f64>) -> Walked {
     let mut start = Walker::new(primitive);
-    start.project(data[0].point);
+    let foot = start.project(data[0].point).s;
+    start.go_to(foot);
     let primitive = Primitive {
         start: start.position,
-        heading: primitive.heading + start.s * (primitive.kappa + 0.5 * primitive.sharpness * start.s),
+        heading: primitive.heading + foot * (primitive.kappa + 0.5 * primitive.sharpness * foot),
         kappa: start.kappa,
         sharpness: primitive.sharpness,
     };
@@ -163,12 +169,21 @@ pub(crate) fn walk(primitive: &Primitive, data: &[Datum], end_factor: f64) -> Wa
     let tangent = walker.tangent;
     let mut normal = Normal::ZERO;
     let last = data.len() - 1;
-    for (i, datum) in data.iter().enumerate() {
-        let d = if i == 0 { walker.offset(datum.point) } else { walker.project(datum.point) };
+    let known = feet.len();
+    feet.resize(data.len(), 0.0);
+    for (i, (datum, near)) in data.iter().zip(feet.iter_mut()).enumerate() {
+        let foot = if i == 0 {
+            Foot { s: 0.0, distance: walker.offset(datum.point) }
+        } else if i < known {
+            walker.project_from(*near - foot, datum.point)
+        } else {
+            walker.project(datum.point)
+        };
+        *near = foot.s;
         let w = if i == 0 || i == last { end_factor * datum.weight } else { datum.weight };
-        normal.add(&walker.row(tangent), d, w);
+        normal.add(&walker.row(tangent), foot.distance, w);
     }
-    Walked { primitive, length: walker.s, normal }
+    Walked { primitive, length: feet[last], normal }
 }
 
 /// The chord of a run of points, as a primitive.

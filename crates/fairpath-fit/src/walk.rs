@@ -4,7 +4,7 @@
 //! This is the innermost loop of fitting. It steps along the curve with a low-order rule whose error, about 1e-5 of a step,
 //! is far below any tremor; every position that leaves the fitter is evaluated anew by the kernel.
 
-use fairpath_curve::{Segment, Vec2, trig};
+use fairpath_curve::{Segment, Vec2};
 
 /// A line, arc or clothoid without an end: position and heading at `s = 0`, curvature `kappa + sharpness s`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,7 +37,20 @@ impl Primitive {
     }
 }
 
+/// Where a point's foot is.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Foot {
+    /// Arc length along the primitive, px.
+    pub(crate) s: f64,
+    /// Signed distance of the point, left of the primitive positive, px.
+    pub(crate) distance: f64,
+}
+
 /// A place on a primitive with the running integrals that the derivatives of its position need.
+///
+/// The tangent at a place comes from the heading there, and the integrals of a step from the tangents at its ends by the trapezoidal
+/// rule with its first Euler–Maclaurin correction: so one place waits for nothing of the place before but sums, and the processor
+/// works on several at once.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Walker {
     pub(crate) s: f64,
@@ -45,35 +58,44 @@ pub(crate) struct Walker {
     /// Unit tangent.
     pub(crate) tangent: Vec2,
     pub(crate) kappa: f64,
-    sharpness: f64,
-    origin: Vec2,
+    primitive: Primitive,
     /// `∫ u e^{iθ} du` and `½ ∫ u² e^{iθ} du` from the start.
     first: Vec2,
     second: Vec2,
 }
 
-/// Most that one step towards a foot may turn, radians.
-const LARGEST_TURN: f64 = 1.2;
+/// Most that one step may turn, radians: the rule's error is the fourth power of it over 720, as a share of the step.
+const LARGEST_TURN: f64 = 1.0;
 
-/// A foot is found when the point lies across the curve to within this, px.
-const NEAR_ENOUGH: f64 = 0.3;
+/// Most steps of a move, whatever it turns.
+const MOST_STEPS: f64 = 64.0;
 
-/// Sine and cosine of the small angles between data points: error below 1e-10 up to half a radian.
+/// A foot is found when the point lies across the curve to within this, px: the distance there is corrected for the rest.
+const NEAR_ENOUGH: f64 = 1.0;
+
+/// The unit vector with a heading: error below 1e-9.
 #[inline]
-fn sin_cos_step(a: f64) -> (f64, f64) {
-    if a.abs() > 0.5 {
-        return trig::sin_cos(a);
-    }
+fn unit(heading: f64) -> Vec2 {
+    use std::f64::consts::TAU;
+    // Adding and subtracting 1.5 × 2⁵² rounds to the nearest whole number.
+    let turns = (heading * (1.0 / TAU) + 6_755_399_441_055_744.0) - 6_755_399_441_055_744.0;
+    // A quarter of the angle, at most π/4, by Taylor polynomials; then it is doubled twice.
+    let a = 0.25 * (heading - turns * TAU);
     let x = a * a;
-    (
-        a * (1.0 - x * (1.0 / 6.0 - x * (1.0 / 120.0 - x * (1.0 / 5040.0 - x * (1.0 / 362_880.0))))),
-        1.0 - x * (0.5 - x * (1.0 / 24.0 - x * (1.0 / 720.0 - x * (1.0 / 40_320.0)))),
-    )
+    let xx = x * x;
+    let sin = a
+        * ((1.0 - x * (1.0 / 6.0))
+            + xx * ((1.0 / 120.0 - x * (1.0 / 5040.0)) + xx * (1.0 / 362_880.0 - x * (1.0 / 39_916_800.0))));
+    let versine =
+        x * ((0.5 - x * (1.0 / 24.0)) + xx * ((1.0 / 720.0 - x * (1.0 / 40_320.0)) + xx * (1.0 / 3_628_800.0)));
+    let cos = 1.0 - versine;
+    let (sin, cos) = (2.0 * sin * cos, 1.0 - 2.0 * sin * sin);
+    Vec2::new(1.0 - 2.0 * sin * sin, 2.0 * sin * cos)
 }
 
 #[inline]
-fn rotate(v: Vec2, (sin, cos): (f64, f64)) -> Vec2 {
-    Vec2::new(v.x * cos - v.y * sin, v.x * sin + v.y * cos)
+fn left_of(v: Vec2) -> Vec2 {
+    Vec2::new(-v.y, v.x)
 }
 
 impl Walker {
@@ -81,49 +103,58 @@ impl Walker {
         Self {
             s: 0.0,
             position: primitive.start,
-            tangent: trig::unit(primitive.heading),
+            tangent: unit(primitive.heading),
             kappa: primitive.kappa,
-            sharpness: primitive.sharpness,
-            origin: primitive.start,
+            primitive: *primitive,
             first: Vec2::ZERO,
             second: Vec2::ZERO,
         }
     }
 
+    /// Moves to the place at arc length `s`, forward or back.
+    #[inline]
+    pub(crate) fn go_to(&mut self, s: f64) {
+        let kappa = self.primitive.kappa + self.primitive.sharpness * s;
+        let turn = 0.5 * (self.kappa.abs() + kappa.abs()) * (s - self.s).abs();
+        if turn > LARGEST_TURN {
+            self.go_far(s, turn);
+        } else {
+            self.step_to(s);
+        }
+    }
+
+    /// Moves in several steps.
+    #[cold]
+    fn go_far(&mut self, s: f64, turn: f64) {
+        let count = (turn / LARGEST_TURN).ceil().min(MOST_STEPS);
+        let (from, step) = (self.s, (s - self.s) / count);
+        for i in 1..count as usize {
+            self.step_to(from + step * i as f64);
+        }
+        self.step_to(s);
+    }
+
+    #[inline]
+    fn step_to(&mut self, s: f64) {
+        let Primitive { heading, kappa, sharpness, .. } = self.primitive;
+        let tangent = unit(heading + s * (kappa + 0.5 * sharpness * s));
+        let kappa = kappa + sharpness * s;
+        let ds = s - self.s;
+        let (half, twelfth) = (0.5 * ds, ds * ds * (1.0 / 12.0));
+        // The derivatives of e^{iθ}, u e^{iθ} and ½ u² e^{iθ} at both ends.
+        let (bend0, bend1) = (left_of(self.tangent) * self.kappa, left_of(tangent) * kappa);
+        self.position += (self.tangent + tangent) * half + (bend0 - bend1) * twelfth;
+        let (f0, f1) = (self.tangent * self.s, tangent * s);
+        let (g0, g1) = (bend0 * self.s, bend1 * s);
+        self.first += (f0 + f1) * half + (self.tangent - tangent + g0 - g1) * twelfth;
+        self.second += (f0 * self.s + f1 * s) * (0.5 * half) + (f0 - f1 + (g0 * self.s - g1 * s) * 0.5) * twelfth;
+        (self.s, self.tangent, self.kappa) = (s, tangent, kappa);
+    }
+
     /// Moves by `ds` along the curve, forward or back.
     #[inline]
     pub(crate) fn advance(&mut self, ds: f64) {
-        let bend = self.sharpness * ds;
-        let to_mid = ds * (0.5 * self.kappa + 0.125 * bend);
-        let turn = sin_cos_step(to_mid);
-        let mid = rotate(self.tangent, turn);
-        let half = 0.5 * ds * (self.kappa + 0.5 * bend);
-        let x = half * half;
-        // The chord seen from the middle's tangent: sinc of half the turning, and the skew that sharpness adds.
-        let along = if x < 0.3 {
-            ds * (1.0 - x * (1.0 / 6.0 - x * (1.0 / 120.0 - x * (1.0 / 5040.0))))
-        } else {
-            ds * trig::sin_cos(half).0 / half
-        };
-        let across = bend * ds * ds * (1.0 / 24.0);
-        let step = Vec2::new(mid.x * along - mid.y * across, mid.y * along + mid.x * across);
-        let middle = self.s + 0.5 * ds;
-        let cube = ds * ds * ds * (1.0 / 12.0);
-        self.first += step * middle + Vec2::new(-mid.y, mid.x) * (cube * (self.kappa + 0.5 * bend));
-        self.second += step * (0.5 * middle * middle) + mid * (0.5 * cube);
-        self.position += step;
-        // The second half turns by a little more than the first.
-        let more = 0.25 * bend * ds;
-        let end = rotate(mid, turn);
-        self.tangent = if more == 0.0 {
-            end
-        } else if more.abs() < 0.02 {
-            rotate(end, (more * (1.0 - more * more * (1.0 / 6.0)), 1.0 - 0.5 * more * more))
-        } else {
-            rotate(end, trig::sin_cos(more))
-        };
-        self.s += ds;
-        self.kappa += bend;
+        self.go_to(self.s + ds);
     }
 
     /// Signed distance of a point in the direction of the normal (left of the tangent), at the place where the walker is.
@@ -132,35 +163,61 @@ impl Walker {
         self.tangent.cross(point - self.position)
     }
 
-    /// Moves to the foot of a point near the present place and gives its signed distance.
+    /// Moves to near the foot of a point near the present place.
     #[inline]
-    pub(crate) fn project(&mut self, point: Vec2) -> f64 {
-        for round in 0..4 {
-            let v = point - self.position;
-            let along = self.tangent.dot(v);
-            // What is left moves the distance by its square times half the curvature: nothing that a fit could see.
-            if round > 0 && along.abs() < NEAR_ENOUGH {
-                break;
+    pub(crate) fn project(&mut self, point: Vec2) -> Foot {
+        let (ds, _) = self.towards(point);
+        self.project_from(self.s + ds, point)
+    }
+
+    /// As [`Walker::project`], given about where the foot is.
+    #[inline]
+    pub(crate) fn project_from(&mut self, s: f64, point: Vec2) -> Foot {
+        self.go_to(s);
+        for _ in 0..3 {
+            let (ds, distance) = self.towards(point);
+            // A NaN passes, and the caller sees it in the energy.
+            if !(ds.abs() > NEAR_ENOUGH) {
+                return Foot { s: self.s + ds, distance };
             }
-            // The foot on the osculating circle, by the series of the arc tangent; near the circle's centre, where every
-            // point is as near, the step is held back.
-            let narrowing = (1.0 - self.kappa * self.tangent.cross(v)).max(0.3);
-            let straight = along / narrowing;
-            let t = self.kappa * straight;
-            let t2 = t * t;
-            let mut ds = if t2 < 0.4 {
-                straight * (1.0 - t2 * (1.0 / 3.0 - t2 * (0.2 - t2 * 0.12)))
-            } else {
-                straight / (1.0 + 0.28 * t2)
-            };
-            // No step turns by more than this; a NaN passes, and the caller sees it in the energy.
-            let turn = (self.kappa.abs() + (self.sharpness * ds).abs()) * ds.abs();
-            if turn > LARGEST_TURN {
-                ds *= LARGEST_TURN / turn;
-            }
-            self.advance(ds);
+            self.go_to(self.s + ds);
         }
-        self.offset(point)
+        let (ds, distance) = self.towards(point);
+        Foot { s: self.s + ds, distance }
+    }
+
+    /// Moves to `s` if the foot of a point is near that place.
+    #[inline]
+    pub(crate) fn foot_near(&mut self, s: f64, point: Vec2) -> Option<Foot> {
+        let mut there = *self;
+        there.go_to(s);
+        let (ds, distance) = there.towards(point);
+        (ds.abs() < NEAR_ENOUGH).then(|| {
+            *self = there;
+            Foot { s: s + ds, distance }
+        })
+    }
+
+    /// How far along the curve the foot of a point lies from here, and the point's signed distance there, both to second order.
+    #[inline]
+    fn towards(&self, point: Vec2) -> (f64, f64) {
+        let v = point - self.position;
+        let (along, across) = (self.tangent.dot(v), self.tangent.cross(v));
+        // The foot on the osculating circle, by the series of the arc tangent; near the circle's centre, where every
+        // point is as near, the step is held back.
+        let straight = along / (1.0 - self.kappa * across).max(0.3);
+        let t = self.kappa * straight;
+        let t2 = t * t;
+        let ds = if t2 < 0.4 {
+            straight * (1.0 - t2 * (1.0 / 3.0 - t2 * (0.2 - t2 * 0.12)))
+        } else {
+            straight / (1.0 + 0.28 * t2)
+        };
+        // No step turns by more than this.
+        let turn = (self.kappa.abs() + (self.primitive.sharpness * ds).abs()) * ds.abs();
+        let ds = if turn > LARGEST_TURN { ds * (LARGEST_TURN / turn) } else { ds };
+        // On the way there the distance changes by half of this.
+        (ds, across - 0.5 * t * along)
     }
 
     /// Derivatives of the position's normal component by start offset (along the start's normal), heading, curvature at the
@@ -169,7 +226,7 @@ impl Walker {
     pub(crate) fn row(&self, start_tangent: Vec2) -> [f64; 4] {
         [
             self.tangent.dot(start_tangent),
-            self.tangent.dot(self.position - self.origin),
+            self.tangent.dot(self.position - self.primitive.start),
             self.tangent.dot(self.first),
             self.tangent.dot(self.second),
         ]
@@ -178,6 +235,51 @@ impl Walker {
     /// Derivatives of the position by heading, curvature at the start and sharpness.
     #[inline]
     pub(crate) fn jacobian(&self) -> [Vec2; 3] {
-        [self.position - self.origin, self.first, self.second].map(|v| Vec2::new(-v.y, v.x))
+        [self.position - self.primitive.start, self.first, self.second].map(left_of)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use fairpath_curve::moments;
+
+    #[test]
+    fn places_and_integrals_agree_with_the_kernel() {
+        for (kappa, sharpness) in [(0.0, 0.0), (0.02, 0.0), (-0.05, 0.001), (0.3, -0.004), (0.0, 0.002)] {
+            let p = Primitive { start: Vec2::new(3.0, -2.0), heading: 2.5, kappa, sharpness };
+            let mut walker = Walker::new(&p);
+            for i in 1..40 {
+                walker.go_to(3.0 * f64::from(i % 7 + i / 2));
+                let m = moments(p.heading, kappa, sharpness, walker.s);
+                let tolerance = 1e-4 * walker.s;
+                assert!((walker.position - p.start - m[0]).hypot() < tolerance);
+                assert!((walker.first - m[1]).hypot() < tolerance * walker.s, "{kappa} {:?} {:?}", walker.first, m[1]);
+                assert!((walker.second - m[2] * 0.5).hypot() < tolerance * walker.s * walker.s);
+            }
+        }
+    }
+
+    #[test]
+    fn distances_agree_with_the_nearest_point() {
+        for (kappa, sharpness) in [(0.0, 0.0), (0.02, 0.0), (-0.05, 0.001), (0.1, -0.002), (0.0, 0.002)] {
+            let p = Primitive { start: Vec2::new(3.0, -2.0), heading: 2.5, kappa, sharpness };
+            for i in 1..20 {
+                for d in [-3.0, 0.1, 4.0] {
+                    let mut walker = Walker::new(&p);
+                    walker.go_to(3.0 * f64::from(i));
+                    let point = walker.position + left_of(walker.tangent) * d;
+                    let mut other = Walker::new(&p);
+                    for off in [-4.0, -0.9, 0.3, 0.9] {
+                        let foot = other.project_from(3.0 * f64::from(i) + off, point);
+                        println!(
+                            "{kappa} {sharpness} {i} {d} {off}: {:e} {:e}",
+                            foot.s - 3.0 * f64::from(i),
+                            foot.distance - d
+                        );
+                    }
+                }
+            }
+        }
     }
 }

@@ -1,11 +1,11 @@
 //! Candidate primitives for every run of samples (section 3.3 of Baran et al. 2010).
 
-use crate::linear::{cholesky, solve};
+use crate::linear::{cholesky, solve, solve_lower};
 use crate::options::{Deviation, FitOptions};
-use crate::primitive_fit::{Normal, Walked, chord, circle_through, walk, walk_arc, walk_line};
+use crate::primitive_fit::{Normal, Walked, chord, circle_through, walk_arc, walk_line, walk_near};
 use crate::track::{Shape, Track};
 use crate::walk::{Datum, Primitive, Walker};
-use fairpath_curve::{Kind, trig};
+use fairpath_curve::{Kind, Vec2, trig};
 
 /// A primitive fitted to the samples `first..=last`, with what the graph needs to know of it.
 #[derive(Clone, Debug)]
@@ -82,8 +82,9 @@ struct Family {
     unknowns: usize,
     /// Fewest sample intervals.
     fewest: usize,
-    /// The fit of the run one sample shorter.
+    /// The fit of the run one sample shorter, and where along it the feet of its data are.
     warm: Option<Walked>,
+    feet: Vec<f64>,
     misses: usize,
 }
 
@@ -100,7 +101,7 @@ pub(crate) fn candidates(track: &Track, options: &FitOptions) -> Vec<Candidate> 
         ]
         .into_iter()
         .filter_map(|(kind, cost, unknowns, fewest)| {
-            Some(Family { kind, cost: cost?, unknowns, fewest, warm: None, misses: 0 })
+            Some(Family { kind, cost: cost?, unknowns, fewest, warm: None, feet: Vec::new(), misses: 0 })
         })
         .collect();
         // A primitive may not run through a corner, nor more than once around.
@@ -157,14 +158,16 @@ const HOPELESS_MARGIN: f64 = 10.0;
 /// A round of Gauss–Newton is taken while it promises to lower the energy by this share.
 const WORTH_A_STEP: f64 = 0.02;
 
-/// The normal equations of a fit with the data that follow its last one, which is the first of `data`.
-fn extended(shorter: &Walked, data: &[Datum], end_factor: f64) -> Normal {
+/// The normal equations of a fit with the data that follow its last one, which is the first of `data`; their feet are added.
+fn extended(shorter: &Walked, data: &[Datum], end_factor: f64, feet: &mut Vec<f64>) -> Normal {
     let mut walker = Walker::new(&shorter.primitive);
     let tangent = walker.tangent;
     let mut normal = shorter.normal;
-    walker.advance(shorter.length);
+    walker.go_to(shorter.length);
+    feet.pop();
     for (i, datum) in data.iter().enumerate() {
-        let d = walker.project(datum.point);
+        let foot = walker.project(datum.point);
+        feet.push(foot.s);
         // The former end is an end no more, and the new one is.
         let factor = if i == 0 {
             1.0 - end_factor
@@ -173,7 +176,7 @@ fn extended(shorter: &Walked, data: &[Datum], end_factor: f64) -> Normal {
         } else {
             1.0
         };
-        normal.add(&walker.row(tangent), d, factor * datum.weight);
+        normal.add(&walker.row(tangent), foot.distance, factor * datum.weight);
     }
     normal
 }
@@ -188,22 +191,23 @@ fn extend(
     options: &FitOptions,
     out: &mut Vec<Candidate>,
 ) {
-    let walk = match family.kind {
-        Kind::Line => walk_line,
-        Kind::Arc => walk_arc,
-        Kind::Clothoid => walk,
+    let mut feet = std::mem::take(&mut family.feet);
+    let walk = |primitive: &Primitive, feet: &mut Vec<f64>| match family.kind {
+        Kind::Line => walk_line(primitive, data, options.end_factor),
+        Kind::Arc => walk_arc(primitive, data, options.end_factor),
+        Kind::Clothoid => walk_near(primitive, data, options.end_factor, feet),
     };
     let n = family.unknowns;
     // From the fit of the shorter run one step over all data is nearly always enough.
     let (guess, rounds) = match &family.warm {
         Some(shorter) => {
-            let longer = extended(shorter, &data[data.len() - 1 - fresh..], options.end_factor);
+            let longer = extended(shorter, &data[data.len() - 1 - fresh..], options.end_factor, &mut feet);
             (longer.step(n).map_or(shorter.primitive, |step| shorter.primitive.moved(&step)), 1)
         }
         None if family.kind == Kind::Line => (chord(data), 1),
         None => (circle_through(data), 3),
     };
-    let mut fit = walk(&guess, data, options.end_factor);
+    let mut fit = walk(&guess, &mut feet);
     for _ in 0..rounds {
         let Some(step) = fit.normal.step(n) else { break };
         // The step's own forecast of what it gains.
@@ -211,7 +215,7 @@ fn extend(
         if gain < WORTH_A_STEP * fit.normal.energy + 1e-3 * fit.normal.weight {
             break;
         }
-        let next = walk(&fit.primitive.moved(&step), data, options.end_factor);
+        let next = walk(&fit.primitive.moved(&step), &mut feet);
         if !(next.normal.energy <= fit.normal.energy) {
             break;
         }
@@ -226,10 +230,14 @@ fn extend(
     {
         family.misses += 1;
         family.warm = sound.then_some(fit);
+        if sound {
+            family.feet = feet;
+        }
         return;
     }
     family.misses = 0;
     family.warm = Some(fit);
+    family.feet = feet;
     let free = make(family, &fit.primitive, fit.length, &fit.normal, span, track, options);
     let inflects = family.kind == Kind::Clothoid && free.has_inflection();
     out.push(free);
@@ -251,11 +259,13 @@ fn constrained(
     options: &FitOptions,
     out: &mut Vec<Candidate>,
 ) {
+    let mut feet = Vec::with_capacity(data.len());
     for flat_start in [true, false] {
         let mut fit = *free;
+        feet.clone_from(&family.feet);
         for _ in 0..2 {
             let Some(p) = flat_end_step(&fit.primitive, fit.length, &fit.normal, flat_start) else { break };
-            fit = walk(&p, data, options.end_factor);
+            fit = walk_near(&p, data, options.end_factor, &mut feet);
         }
         // Walking moves the start by a hair; the condition is set again exactly.
         let mut p = fit.primitive;
@@ -268,7 +278,7 @@ fn constrained(
             continue;
         }
         // Setting it moves the far end of a long or tight one: it is measured as it is now.
-        let exact = walk(&p, data, options.end_factor);
+        let exact = walk_near(&p, data, options.end_factor, &mut feet);
         if exact.normal.max <= options.max_error {
             out.push(make(family, &p, fit.length, &exact.normal, span, track, options));
         }
@@ -333,90 +343,86 @@ fn make(
     if candidate.has_inflection() {
         candidate.cost += options.inflection_cost;
     }
-    let inverse = inverse(normal, family.unknowns);
+    let firmness = Firmness::of(normal, family.unknowns);
     let mut walker = Walker::new(primitive);
     let tangent = walker.tangent;
-    let n = family.unknowns;
-    let inner = (first + 1).min(last);
-    candidate.head[0] = JoinState::at(&walker, tangent, track, first, &inverse, n, primitive);
-    walker.project(track.coarse.sample(inner));
-    candidate.head[1] = JoinState::at(&walker, tangent, track, inner, &inverse, n, primitive);
-    let inner = (last - 1).max(first);
-    walker.advance(length - (track.coarse.station(last) - track.coarse.station(inner)) - walker.s);
-    walker.project(track.coarse.sample(inner));
-    candidate.tail[1] = JoinState::at(&walker, tangent, track, inner, &inverse, n, primitive);
-    walker.advance(length - walker.s);
-    candidate.tail[0] = JoinState::at(&walker, tangent, track, last, &inverse, n, primitive);
+    let state = |walker: &Walker, s: f64, offset: f64| firmness.state(walker, tangent, primitive, s, offset);
+    let (second, last_but_one) = ((first + 1).min(last), (last - 1).max(first));
+    if joins_at_ends(options) {
+        candidate.head[0] = state(&walker, 0.0, walker.offset(track.coarse.sample(first)));
+    }
+    let foot = walker.project(track.coarse.sample(second));
+    candidate.head[1] = state(&walker, foot.s, foot.distance);
+    let near = length - (track.coarse.station(last) - track.coarse.station(last_but_one));
+    let foot = walker.project_from(near, track.coarse.sample(last_but_one));
+    candidate.tail[1] = state(&walker, foot.s, foot.distance);
+    candidate.tail[0].s = length;
+    if joins_at_ends(options) {
+        walker.go_to(length);
+        candidate.tail[0] = state(&walker, length, walker.offset(track.coarse.sample(last)));
+    }
     candidate
 }
 
-/// The inverse of the leading `n × n` block of the normal matrix; huge where the data do not determine it.
-fn inverse(normal: &Normal, n: usize) -> [[f64; 4]; 4] {
-    let mut l = normal.hessian;
-    // A little firmness, as of a tenth of the data's weight seen over a pixel, keeps undetermined fits finite.
-    let scale = normal.weight * 1e-9;
-    for (i, row) in l.iter_mut().enumerate() {
-        row[i] += scale;
-    }
-    let mut out = [[0.0; 4]; 4];
-    if !cholesky(&mut l, n, 1e-14) {
-        for (i, row) in out.iter_mut().enumerate().take(n) {
-            row[i] = 1e3;
-        }
-        return out;
-    }
-    for i in 0..n {
-        let mut e = [0.0; 4];
-        e[i] = 1.0;
-        solve(&l, n, &mut e);
-        out[i] = e;
-    }
-    out
+/// Whether joins are ever estimated at the very ends of candidates: where these overlap by two intervals, they are not.
+fn joins_at_ends(options: &FitOptions) -> bool {
+    options.g0_cost.is_some()
+        || (options.g1_cost.is_some() && options.g1_overlap < 2)
+        || (options.g2_cost.is_some() && options.g2_overlap < 2)
 }
 
-impl JoinState {
-    const NONE: Self = Self { s: 0.0, offset: 0.0, heading: 0.0, curvature: 0.0, covariance: [0.0; 6] };
+/// How firmly its data hold a fit: the factor of its normal matrix.
+struct Firmness {
+    factor: [[f64; 4]; 4],
+    unknowns: usize,
+}
 
-    fn at(
-        walker: &Walker,
-        tangent: fairpath_curve::Vec2,
-        track: &Track,
-        sample: usize,
-        inverse: &[[f64; 4]; 4],
-        n: usize,
-        p: &Primitive,
-    ) -> Self {
-        let s = walker.s;
+impl Firmness {
+    fn of(normal: &Normal, unknowns: usize) -> Self {
+        let mut factor = normal.hessian;
+        // A little firmness, as of a tenth of the data's weight seen over a pixel, keeps undetermined fits finite.
+        let scale = normal.weight * 1e-9;
+        for (i, row) in factor.iter_mut().enumerate() {
+            row[i] += scale;
+        }
+        if !cholesky(&mut factor, unknowns, 1e-14) {
+            factor = [[0.0; 4]; 4];
+            for (i, row) in factor.iter_mut().enumerate() {
+                row[i] = LOOSE;
+            }
+        }
+        Self { factor, unknowns }
+    }
+
+    /// The state of a fit at arc length `s`, near which the walker is.
+    fn state(&self, walker: &Walker, tangent: Vec2, p: &Primitive, s: f64, offset: f64) -> JoinState {
         // Rows of the change of position across the curve, heading and curvature by the primitive's unknowns.
         let mut rows = [walker.row(tangent), [0.0, 1.0, s, 0.5 * s * s], [0.0, 0.0, 1.0, s]];
         for row in &mut rows {
-            for v in &mut row[n..] {
+            for v in &mut row[self.unknowns..] {
                 *v = 0.0;
             }
+            solve_lower(&self.factor, self.unknowns, row);
         }
-        let times: [[f64; 4]; 3] = rows.map(|row| {
-            let mut v = [0.0; 4];
-            for (i, out) in v.iter_mut().enumerate().take(n) {
-                *out = (0..n).map(|j| inverse[i][j] * row[j]).sum();
-            }
-            v
-        });
-        let dot = |a: &[f64; 4], b: &[f64; 4]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3];
-        Self {
+        let dot = |i: usize, j: usize| {
+            let (a, b): (&[f64; 4], &[f64; 4]) = (&rows[i], &rows[j]);
+            a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3]
+        };
+        JoinState {
             s,
-            offset: walker.offset(track.coarse.sample(sample)),
+            offset,
             heading: p.heading + s * (p.kappa + 0.5 * p.sharpness * s),
-            curvature: walker.kappa,
-            covariance: [
-                dot(&rows[0], &times[0]),
-                dot(&rows[0], &times[1]),
-                dot(&rows[0], &times[2]),
-                dot(&rows[1], &times[1]),
-                dot(&rows[1], &times[2]),
-                dot(&rows[2], &times[2]),
-            ],
+            curvature: p.kappa + p.sharpness * s,
+            covariance: [dot(0, 0), dot(0, 1), dot(0, 2), dot(1, 1), dot(1, 2), dot(2, 2)],
         }
     }
+}
+
+/// Square root of the variance of what no data determine.
+const LOOSE: f64 = 30.0;
+
+impl JoinState {
+    const NONE: Self = Self { s: 0.0, offset: 0.0, heading: 0.0, curvature: 0.0, covariance: [0.0; 6] };
 
     /// Difference of two headings as the least turn between them.
     pub(crate) fn turn_to(&self, other: &Self) -> f64 {

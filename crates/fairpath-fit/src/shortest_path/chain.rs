@@ -16,6 +16,9 @@ pub(crate) const LENGTH: usize = 5;
 /// Weight of a corner relative to that of an end.
 const CORNER_FACTOR: f64 = 2.0;
 
+/// A foot this far before the start of a piece is not on the curve, px; nearer ones may be, on the piece before.
+const BACK: f64 = 2.0;
+
 /// A primitive in a chain, px.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Piece {
@@ -70,6 +73,8 @@ pub(crate) struct Measured {
     pub(crate) normals: Vec<PieceNormal>,
     /// `Σ w d²`.
     pub(crate) energy: f64,
+    /// Where the foot of each datum is: arc length from the start of its stretch, pieces laid end to end.
+    feet: Vec<f64>,
 }
 
 impl PieceNormal {
@@ -125,17 +130,31 @@ impl Chain<'_> {
 
     /// Walks along all data.
     pub(crate) fn measure(&self) -> Measured {
-        let mut normals = vec![PieceNormal::ZERO; self.pieces.len()];
-        let mut energy = 0.0;
-        for (pieces, data) in self.stretches() {
-            energy += self.measure_stretch(pieces, data, &mut normals);
-        }
-        Measured { normals, energy }
+        self.measured(&[])
     }
 
-    fn measure_stretch(&self, pieces: Range<usize>, data: Range<usize>, normals: &mut [PieceNormal]) -> f64 {
+    /// As [`Chain::measure`], given the measurement of a chain that differs little.
+    pub(crate) fn measure_near(&self, near: &Measured) -> Measured {
+        self.measured(&near.feet)
+    }
+
+    fn measured(&self, near: &[f64]) -> Measured {
+        let mut out = Measured {
+            normals: vec![PieceNormal::ZERO; self.pieces.len()],
+            energy: 0.0,
+            feet: vec![0.0; self.data.len()],
+        };
+        for (pieces, data) in self.stretches() {
+            self.measure_stretch(pieces, data, near, &mut out);
+        }
+        out
+    }
+
+    fn measure_stretch(&self, pieces: Range<usize>, data: Range<usize>, near: &[f64], out: &mut Measured) {
+        let Measured { normals, energy, feet } = out;
         let mut k = pieces.start;
-        let mut energy = 0.0;
+        // Length of the pieces before this one.
+        let mut before = 0.0;
         let (first, last) = (data.start, data.end - 1);
         // The seam of a smoothly closed chain is no end: its data are ordinary.
         let ring = self.closed && self.joins[self.pieces.len() - 1] != Continuity::G0;
@@ -148,7 +167,7 @@ impl Chain<'_> {
                 normals[k].add(&[1.0, 0.0, 0.0, 0.0, 0.0, 0.0], v.x, w);
                 normals[k].add(&[0.0, 1.0, 0.0, 0.0, 0.0, 0.0], v.y, w);
                 normals[k].reached(i, self.end_error(v, walker.tangent, i), datum.weight);
-                energy += w * v.hypot2();
+                *energy += w * v.hypot2();
                 continue;
             }
             if i == last && open_end {
@@ -157,8 +176,7 @@ impl Chain<'_> {
                     k = pieces.end - 1;
                     walker = Walker::new(&primitive(&self.pieces[k]));
                 }
-                let length = self.pieces[k].q[LENGTH];
-                walker.advance(length - walker.s);
+                walker.go_to(self.pieces[k].q[LENGTH]);
                 let (v, w) = (datum.point - walker.position, self.weight_of_end(i) * datum.weight);
                 for (n, d) in [(Vec2::new(1.0, 0.0), v.x), (Vec2::new(0.0, 1.0), v.y)] {
                     let mut row = row(&walker, n, &self.pieces[k].q);
@@ -166,40 +184,43 @@ impl Chain<'_> {
                     normals[k].add(&row, d, w);
                 }
                 normals[k].reached(i, self.end_error(v, walker.tangent, i), datum.weight);
-                energy += w * v.hypot2();
+                *energy += w * v.hypot2();
                 continue;
             }
-            let mut d = walker.project(datum.point);
-            while k + 1 < pieces.end && walker.s > self.pieces[k].q[LENGTH] {
-                let beyond = walker.s - self.pieces[k].q[LENGTH];
+            // Where the foot was before saves the search for it from the foot of the last datum.
+            let guess = near.get(i).and_then(|near| walker.foot_near(near - before, datum.point));
+            let mut foot = guess.unwrap_or_else(|| walker.project(datum.point));
+            while k + 1 < pieces.end && foot.s > self.pieces[k].q[LENGTH] {
+                let beyond = foot.s - self.pieces[k].q[LENGTH];
+                before += self.pieces[k].q[LENGTH];
                 k += 1;
                 walker = Walker::new(&primitive(&self.pieces[k]));
-                walker.advance(beyond);
-                d = walker.project(datum.point);
+                foot = walker.project_from(beyond, datum.point);
             }
+            feet[i] = before + foot.s;
             let q = &self.pieces[k].q;
-            let beyond = (walker.s < 0.0 && k == pieces.start && open_start)
-                || (walker.s > q[LENGTH] && k + 1 == pieces.end && open_end);
-            let row = if beyond {
+            let slack = if k > pieces.start { BACK } else { 0.0 };
+            let beyond = (foot.s < -slack && (k > pieces.start || open_start))
+                || (foot.s > q[LENGTH] && k + 1 == pieces.end && open_end);
+            let (d, row) = if beyond {
                 // Beyond the end the nearest point is the end itself.
-                let at_end = walker.s > 0.0;
-                walker.advance(if at_end { q[LENGTH] - walker.s } else { -walker.s });
+                let at_end = foot.s > 0.0;
+                walker.go_to(if at_end { q[LENGTH] } else { 0.0 });
                 let v = datum.point - walker.position;
-                d = v.hypot2().sqrt();
+                let d = v.hypot2().sqrt();
                 let n = if d > 0.0 { v / d } else { Vec2::ZERO };
                 let mut row = row(&walker, n, q);
                 if at_end {
                     row[LENGTH] += n.dot(walker.tangent);
                 }
-                row
+                (d, row)
             } else {
-                row(&walker, Vec2::new(-walker.tangent.y, walker.tangent.x), q)
+                (foot.distance, row(&walker, Vec2::new(-walker.tangent.y, walker.tangent.x), q))
             };
             normals[k].add(&row, d, datum.weight);
             normals[k].reached(i, d.abs(), datum.weight);
-            energy += datum.weight * d * d;
+            *energy += datum.weight * d * d;
         }
-        energy
     }
 }
 

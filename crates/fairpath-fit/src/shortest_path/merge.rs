@@ -108,7 +108,7 @@ pub(crate) fn merge(chain: &mut Chain, effort: Effort) -> Option<Measured> {
         let mut wanted = None;
         for _ in 0..4 {
             let next_held = forward(chain, &old, &plan, step, &held);
-            let next = chain.measure();
+            let next = chain.measure_near(&now);
             let next_misfit = gaps(chain) + closure.misfit(&chain.pieces);
             let next_merit = 0.5 * next.energy + price * (next_misfit - SMALL_GAP).max(0.0);
             if next_merit <= merit * (1.0 + SLACK) {
