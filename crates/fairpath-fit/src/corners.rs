@@ -124,7 +124,7 @@ fn strength(
     let floor = noise * noise;
     let mut side = |range: &mut dyn Iterator<Item = isize>| {
         run.clear();
-        run.extend(range.map(|j| Datum { point: at(j), s: j as f64, weight: 1.0 }));
+        run.extend(range.zip(0..).map(|(j, s)| Datum { point: at(j), s: f64::from(s), weight: 1.0 }));
         let line = walk_line(&chord(run), run, 1.0);
         let line = line.normal.step(2).map_or(line, |step| walk_line(&line.primitive.moved(&step), run, 1.0));
         // What a line describes to within the tremor needs no arc.

@@ -106,7 +106,8 @@ impl<'a> Graph<'a> {
         if !possible(u.kind, v.kind, level) {
             return f64::INFINITY;
         }
-        at_least(&self.candidates[u.candidate as usize], &self.candidates[v.candidate as usize], level, self.options)
+        let (cu, cv) = (&self.candidates[u.candidate as usize], &self.candidates[v.candidate as usize]);
+        self.sign_cost(Edge { from, to, level }) + at_least(cu, cv, level, self.options)
     }
 
     /// The cost of an edge before verification.

@@ -83,6 +83,15 @@ struct Value {
 
 /// Fits the chain; nothing if it did not come to a finite end with exact joins.
 pub(crate) fn merge(chain: &mut Chain, effort: Effort) -> Option<Measured> {
+    merge_while(chain, effort, |_, _, _| true)
+}
+
+/// As [`merge`], but given up, with nothing, when after some round the chain does not look `promising`.
+pub(crate) fn merge_while(
+    chain: &mut Chain,
+    effort: Effort,
+    promising: impl Fn(&Chain, &Measured, usize) -> bool,
+) -> Option<Measured> {
     unwrap_headings(chain);
     let closure = Closure::of(chain);
     let mut held: Vec<Held> = vec![[false; Q]; chain.pieces.len()];
@@ -91,7 +100,7 @@ pub(crate) fn merge(chain: &mut Chain, effort: Effort) -> Option<Measured> {
     // Damping relative to the energy.
     let mut relative = if misfit < SMALL_GAP { JOINED } else { APART };
     let mut replans = 0;
-    for _ in 0..effort.rounds {
+    for round in 0..effort.rounds {
         let Some(plan) = backward(chain, &now, relative * (now.energy + 1.0), &closure, &held) else {
             relative *= 100.0;
             if relative > 1e9 {
@@ -130,6 +139,9 @@ pub(crate) fn merge(chain: &mut Chain, effort: Effort) -> Option<Measured> {
             continue;
         }
         replans = 0;
+        if !promising(chain, &now, round) {
+            return None;
+        }
         let Some(gain) = gain else {
             chain.pieces = old;
             relative = (relative * 100.0).max(1e-3);
@@ -148,6 +160,16 @@ pub(crate) fn merge(chain: &mut Chain, effort: Effort) -> Option<Measured> {
     }
     now.energy.is_finite().then_some(now)
 }
+
+/// Whether a trial that after some round costs more than it may by `excess` could still come down to it. Most that cannot show it soon.
+pub(crate) fn is_hopeful(excess: f64, round: usize) -> bool {
+    excess < (0..round).fold(DOUBTFUL, |limit, _| limit * FADING)
+}
+
+/// Excess at which a trial is given up after its first round, in units of cost, and the share of it after each further one: at
+/// these one in twenty of those that would come down is lost.
+const DOUBTFUL: f64 = 2000.0;
+const FADING: f64 = 0.15;
 
 /// Relative damping while only the joins are to be closed: so strong that nothing else moves.
 const JOINING: f64 = 1e3;

@@ -6,7 +6,7 @@
 
 use super::candidates::{deviation, penalty};
 use super::chain::{Chain, KAPPA0, KAPPA1, LENGTH, Measured, Piece, end};
-use super::merge::{Effort, merge};
+use super::merge::{Effort, is_hopeful, merge, merge_while};
 use super::transition::possible;
 use crate::options::FitOptions;
 use crate::primitive_fit::{refine as fit_freely, walk_line};
@@ -344,7 +344,8 @@ fn tried(chain: &Chain, measured: &Measured, change: &Change, options: &FitOptio
     }
     let errors = measured.normals[window.clone()].iter().map(|n| n.deviation(options));
     let before = cost(&chain.pieces[window.clone()], errors, options);
-    let mut result = merge(&mut part, TRY)?;
+    let promising = |part: &Chain, now: &Measured, round: usize| is_hopeful(total(part, now, options) - before, round);
+    let mut result = merge_while(&mut part, TRY, promising)?;
     let gain = before - total(&part, &result, options);
     for normal in &mut result.normals {
         if normal.span.0 < normal.span.1 {
