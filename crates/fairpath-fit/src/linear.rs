@@ -44,6 +44,12 @@ pub(crate) fn solve_lower<const N: usize>(l: &[[f64; N]; N], n: usize, b: &mut [
 #[inline]
 pub(crate) fn solve<const N: usize>(l: &[[f64; N]; N], n: usize, b: &mut [f64; N]) {
     solve_lower(l, n, b);
+    solve_upper(l, n, b);
+}
+
+/// What remains to be solved after [`solve_lower`], in place.
+#[inline]
+pub(crate) fn solve_upper<const N: usize>(l: &[[f64; N]; N], n: usize, b: &mut [f64; N]) {
     for i in (0..n).rev() {
         let mut v = b[i];
         for k in i + 1..n {

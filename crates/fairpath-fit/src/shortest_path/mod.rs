@@ -4,6 +4,7 @@ mod candidates;
 mod chain;
 mod graph;
 mod merge;
+mod recursion;
 mod refine;
 mod search;
 mod transition;

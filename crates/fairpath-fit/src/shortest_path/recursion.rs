@@ -1,0 +1,571 @@
+//! One step of the merge: the best change of a chain in the quadratic model of its distances, by a Riccati recursion (after section 3.6
+//! of Baran et al. 2010).
+//!
+//! The state is the pose at which a piece begins, the controls are the piece's own freedoms (length, curvature at the end, and at a
+//! weaker join also curvature or heading at its start), and the piece's end is the next state: backward for the feedback law, forward
+//! for the new chain, at a cost linear in the number of pieces.
+//!
+//! A closed chain adds four equations, that the last end is the first start. They are carried through the recursion with
+//! the first state and their multipliers as parameters.
+
+use super::chain::{Chain, HEADING, KAPPA0, KAPPA1, LENGTH, Measured, Piece, PieceNormal, Q, end, end_with_jacobian};
+use crate::linear::{cholesky, solve, solve_lower, solve_upper};
+use fairpath_curve::{Continuity, Kind};
+use std::f64::consts::TAU;
+
+/// Numbers in a state.
+const STATE: usize = 4;
+/// State and parameters of an open and of a closed chain; the latter carries the first state and the multipliers of closure.
+pub(crate) const OPEN: usize = STATE;
+pub(crate) const CLOSED: usize = STATE + 8;
+
+/// Shortest length of a piece, px.
+const MIN_LENGTH: f64 = 1.0;
+/// Largest curvature, radians per px.
+const MAX_CURVATURE: f64 = 1.0;
+
+/// How a heading and a curvature gap compare to one in position, px and px².
+pub(crate) const GAP_SCALE: [f64; 4] = [1.0, 1.0, 20.0, 200.0];
+
+/// Weight of the square of an open gap, px.
+const GAP_STIFFNESS: f64 = 30.0;
+
+/// The feedback law of one stage.
+#[derive(Clone, Copy)]
+struct Law<const Z: usize> {
+    /// Change of each control, and its response to changes of state and parameters.
+    feed: [f64; Q],
+    gain: [[f64; Z]; Q],
+    /// Slope of the cost by each held control after that, and its response: tells when a held control may be let go.
+    slope: [f64; Q],
+    slope_gain: [[f64; Z]; Q],
+}
+
+/// Which controls of a piece are held at their bounds.
+pub(crate) type Held = [bool; Q];
+
+/// Where each parameter of a piece comes from.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum Role {
+    State,
+    Control,
+    /// Zero or equal to another.
+    Fixed,
+}
+
+/// Quadratic model `½ zᵀ h z + gᵀ z` of the cost to go.
+#[derive(Clone, Copy)]
+struct Value<const Z: usize> {
+    h: [[f64; Z]; Z],
+    g: [f64; Z],
+}
+
+/// What is open between piece `k` and the one before, in the parameters that it takes over.
+pub(crate) fn gap_before(chain: &Chain, pieces: &[Piece], k: usize) -> [f64; 4] {
+    let taken = roles(chain, k);
+    let arrived = end(&pieces[k - 1].q);
+    std::array::from_fn(|i| if taken[i] == Role::State { arrived[i] - pieces[k].q[i] } else { 0.0 })
+}
+
+/// The equations that close a chain.
+pub(crate) struct Closure {
+    /// How many of x, y, heading and curvature must agree.
+    pub(crate) count: usize,
+    /// What the last heading exceeds the first by: whole turns.
+    turns: f64,
+}
+
+impl Closure {
+    pub(crate) fn of(chain: &Chain) -> Self {
+        if !chain.closed {
+            return Self { count: 0, turns: 0.0 };
+        }
+        let n = chain.pieces.len();
+        let straight = chain.pieces[0].kind == Kind::Line || chain.pieces[n - 1].kind == Kind::Line;
+        let count = match chain.joins[n - 1] {
+            Continuity::G0 => 2,
+            Continuity::G1 => 3,
+            Continuity::G2 | Continuity::G3 => 4 - usize::from(straight),
+        };
+        let turned = end(&chain.pieces[n - 1].q)[HEADING] - chain.pieces[0].q[HEADING];
+        Self { count, turns: TAU * (turned / TAU + 0.5).floor() }
+    }
+
+    fn gap(&self, pieces: &[Piece]) -> [f64; 4] {
+        let last = end(&pieces[pieces.len() - 1].q);
+        let mut gap = [0.0; 4];
+        for i in 0..self.count {
+            gap[i] = last[i] - pieces[0].q[i];
+        }
+        if self.count > HEADING {
+            gap[HEADING] -= self.turns;
+        }
+        gap
+    }
+
+    /// Weighted sum of the magnitudes of what is open.
+    pub(crate) fn misfit(&self, pieces: &[Piece]) -> f64 {
+        if self.count == 0 {
+            return 0.0;
+        }
+        self.gap(pieces).iter().zip(GAP_SCALE).map(|(g, w)| g.abs() * w).sum()
+    }
+}
+
+/// Where the parameters of piece `k` come from.
+fn roles(chain: &Chain, k: usize) -> [Role; Q] {
+    let n = chain.pieces.len();
+    let piece = &chain.pieces[k];
+    let before = if k > 0 { Some(chain.joins[k - 1]) } else { None };
+    let after = chain.joins.get(k).copied();
+    let line = piece.kind == Kind::Line;
+    let mut r = [Role::State; Q];
+    if before == Some(Continuity::G0) {
+        r[HEADING] = Role::Control;
+    }
+    let seam_with_line =
+        k == 0 && chain.closed && chain.joins[n - 1] >= Continuity::G2 && chain.pieces[n - 1].kind == Kind::Line;
+    r[KAPPA0] = if line || seam_with_line {
+        Role::Fixed
+    } else if before.is_some_and(|j| j < Continuity::G2) {
+        Role::Control
+    } else {
+        Role::State
+    };
+    let flat_after = after.is_some_and(|j| j >= Continuity::G2) && chain.pieces[(k + 1) % n].kind == Kind::Line;
+    r[KAPPA1] = if piece.kind == Kind::Clothoid && !flat_after { Role::Control } else { Role::Fixed };
+    r[LENGTH] = Role::Control;
+    r
+}
+
+/// Least and largest value of a control.
+fn bounds(piece: &Piece, after: Option<&Piece>, joined: bool, index: usize) -> (f64, f64) {
+    match index {
+        LENGTH => (MIN_LENGTH, piece.longest),
+        KAPPA0 | KAPPA1 => {
+            let mut range = (-MAX_CURVATURE, MAX_CURVATURE);
+            let mut keep = |sign: i8| match sign {
+                1 => range.0 = 0.0,
+                -1 => range.1 = 0.0,
+                _ => {}
+            };
+            if index == KAPPA0 {
+                keep(piece.sign[0]);
+                if piece.kind == Kind::Arc {
+                    keep(piece.sign[1]);
+                }
+            } else {
+                keep(piece.sign[1]);
+                if let (true, Some(next)) = (joined, after) {
+                    keep(next.sign[0]);
+                }
+            }
+            range
+        }
+        _ => (f64::NEG_INFINITY, f64::INFINITY),
+    }
+}
+
+fn control_bounds(chain: &Chain, k: usize, index: usize) -> (f64, f64) {
+    let n = chain.pieces.len();
+    let joined = chain.joins.get(k).is_some_and(|j| *j >= Continuity::G2);
+    bounds(&chain.pieces[k], Some(&chain.pieces[(k + 1) % n]), joined, index)
+}
+
+/// What a backward pass decides.
+pub(crate) struct Plan<const Z: usize> {
+    laws: Vec<Law<Z>>,
+    /// Change of the first state.
+    first: [f64; 4],
+    /// Multipliers of closure.
+    multipliers: [f64; 4],
+    /// The largest slope of the cost by a gap, in units of [`GAP_SCALE`].
+    pub(crate) pull: f64,
+}
+
+/// One Riccati recursion from the last piece to the first.
+pub(crate) fn backward<const Z: usize>(
+    chain: &Chain,
+    now: &Measured,
+    damping: f64,
+    closure: &Closure,
+    held: &[Held],
+) -> Option<Plan<Z>> {
+    let n = chain.pieces.len();
+    let mut laws = vec![Law { feed: [0.0; Q], gain: [[0.0; Z]; Q], slope: [0.0; Q], slope_gain: [[0.0; Z]; Q] }; n];
+    let mut value = Value { h: [[0.0; Z]; Z], g: [0.0; Z] };
+    if closure.count > 0 {
+        // The Lagrangian of closure: multiplier times (last state − first state − turns).
+        let gap = closure.gap(&chain.pieces);
+        for i in 0..closure.count {
+            let l = 8 + i;
+            value.h[i][l] = 1.0;
+            value.h[l][i] = 1.0;
+            value.h[4 + i][l] = -1.0;
+            value.h[l][4 + i] = -1.0;
+            value.g[l] = gap[i];
+            // A square of the gap is added. It vanishes with the gap and so changes no solution, but without it nothing would
+            // resist the controls near the end, and the recursion would be ill-conditioned.
+            let w = GAP_STIFFNESS * GAP_SCALE[i] * GAP_SCALE[i];
+            value.h[i][i] += w;
+            value.h[4 + i][4 + i] += w;
+            value.h[i][4 + i] -= w;
+            value.h[4 + i][i] -= w;
+            value.g[i] += w * gap[i];
+            value.g[4 + i] -= w * gap[i];
+        }
+    }
+    let mut pull = 0.0_f64;
+    for k in (0..n).rev() {
+        let q = &chain.pieces[k].q;
+        let (arrived, f) = end_with_jacobian(q);
+        if k + 1 < n {
+            // The next piece's own start need not be where this one ends, at first.
+            let next = &chain.pieces[k + 1];
+            let taken = roles(chain, k + 1);
+            let mut gap = [0.0; 4];
+            for i in 0..4 {
+                if taken[i] == Role::State {
+                    gap[i] = arrived[i] - next.q[i];
+                }
+            }
+            let shift: [f64; Z] = std::array::from_fn(|i| (0..4).map(|j| value.h[i][j] * gap[j]).sum());
+            for i in 0..Z {
+                value.g[i] += shift[i];
+            }
+            for i in 0..4 {
+                if taken[i] == Role::State {
+                    pull = pull.max(value.g[i].abs() / GAP_SCALE[i]);
+                }
+            }
+        }
+        value = Stage::new(&now.normals[k], &f, &value).eliminate(chain, k, damping, &held[k], &value, &mut laws[k])?;
+    }
+    let (first, multipliers) = first_state(chain, &mut value, damping, closure)?;
+    for i in 0..closure.count {
+        pull = pull.max(multipliers[i].abs() / GAP_SCALE[i]);
+    }
+    Some(Plan { laws, first, multipliers, pull })
+}
+
+/// The quadratic model of a stage: over the piece's own parameters, and how these are coupled with what is carried.
+struct Stage<const Z: usize> {
+    h: [[f64; Q]; Q],
+    g: [f64; Q],
+    /// By carried parameter; the first four rows, which stand for the next state, are not used.
+    coupling: [[f64; Q]; Z],
+}
+
+impl<const Z: usize> Stage<Z> {
+    fn new(normal: &PieceNormal, f: &[[f64; Q]; STATE], value: &Value<Z>) -> Self {
+        // V F, state rows only.
+        let mut coupling = [[0.0; Q]; Z];
+        for (i, out) in coupling.iter_mut().enumerate() {
+            for (j, v) in out.iter_mut().enumerate() {
+                *v = (0..STATE).map(|a| value.h[i][a] * f[a][j]).sum();
+            }
+        }
+        let (mut h, mut g) = ([[0.0; Q]; Q], [0.0; Q]);
+        for i in 0..Q {
+            for j in 0..=i {
+                let v = normal.hessian[i][j] + (0..STATE).map(|a| f[a][i] * coupling[a][j]).sum::<f64>();
+                h[i][j] = v;
+                h[j][i] = v;
+            }
+            g[i] = -normal.gradient[i] + (0..STATE).map(|a| f[a][i] * value.g[a]).sum::<f64>();
+        }
+        Self { h, g, coupling }
+    }
+
+    /// Makes both curvatures one.
+    fn bend_evenly(&mut self) {
+        for i in 0..Q {
+            self.h[KAPPA0][i] += self.h[KAPPA1][i];
+        }
+        for row in self.h.iter_mut().chain(&mut self.coupling) {
+            row[KAPPA0] += row[KAPPA1];
+        }
+        self.g[KAPPA0] += self.g[KAPPA1];
+    }
+
+    /// Minimises over the controls within their bounds and gives the cost to go from the stage's state; `after` is that from the
+    /// next.
+    fn eliminate(
+        mut self,
+        chain: &Chain,
+        k: usize,
+        damping: f64,
+        held: &Held,
+        after: &Value<Z>,
+        law: &mut Law<Z>,
+    ) -> Option<Value<Z>> {
+        let piece = &chain.pieces[k];
+        let roles = roles(chain, k);
+        if piece.kind == Kind::Arc {
+            self.bend_evenly();
+        }
+        let (h, g) = (&mut self.h, &self.g);
+        let mut free = [0; Q];
+        let mut count = 0;
+        for i in 0..Q {
+            if roles[i] == Role::Control && !held[i] {
+                // Damping is part of the model, not only of the step: closure then holds in every damped step as well.
+                let reach = reach(piece, i);
+                h[i][i] += damping / (reach * reach) + FLOOR[i];
+                free[count] = i;
+                count += 1;
+            }
+        }
+        let free = &free[..count];
+        let mut factor = [[0.0; Q]; Q];
+        for (a, &i) in free.iter().enumerate() {
+            for (b, &j) in free.iter().enumerate().take(a + 1) {
+                factor[a][b] = h[i][j];
+            }
+        }
+        if !cholesky(&mut factor, count, 1e-13) {
+            return None;
+        }
+        // Half solved, the slopes by the controls give the cost to go as sums of squares; solved, the feedback.
+        let half = |slopes: &dyn Fn(usize) -> f64| {
+            let mut b = [0.0; Q];
+            for (a, &i) in free.iter().enumerate() {
+                b[a] = slopes(i);
+            }
+            solve_lower(&factor, count, &mut b);
+            b
+        };
+        let dot = |a: &[f64; Q], b: &[f64; Q]| (0..count).map(|i| a[i] * b[i]).sum::<f64>();
+        let is_state = |c: usize| c >= STATE || roles[c] == Role::State;
+        let own = half(&|i| g[i]);
+        let mut by_input = [[0.0; Q]; Z];
+        for c in (0..Z).filter(|&c| is_state(c)) {
+            if c < STATE {
+                self.coupling[c] = h[c];
+            }
+            by_input[c] = half(&|i| self.coupling[c][i]);
+        }
+        let mut value = Value { h: [[0.0; Z]; Z], g: [0.0; Z] };
+        for c in (0..Z).filter(|&c| is_state(c)) {
+            value.g[c] = if c < STATE { g[c] } else { after.g[c] } - dot(&by_input[c], &own);
+            for d in (0..=c).filter(|&d| is_state(d)) {
+                let direct = if d < STATE { self.coupling[c][d] } else { after.h[c][d] };
+                let v = direct - dot(&by_input[c], &by_input[d]);
+                value.h[c][d] = v;
+                value.h[d][c] = v;
+            }
+        }
+        let respond = |mut b: [f64; Q]| {
+            solve_upper(&factor, count, &mut b);
+            b
+        };
+        let feed = respond(own);
+        for (a, &i) in free.iter().enumerate() {
+            law.feed[i] = -feed[a];
+        }
+        for c in (0..Z).filter(|&c| is_state(c)) {
+            let gain = respond(by_input[c]);
+            for (a, &i) in free.iter().enumerate() {
+                law.gain[i][c] = -gain[a];
+            }
+        }
+        for i in (0..Q).filter(|&i| roles[i] == Role::Control && held[i]) {
+            law.slope[i] = g[i] + free.iter().map(|&j| h[i][j] * law.feed[j]).sum::<f64>();
+            for c in (0..Z).filter(|&c| is_state(c)) {
+                law.slope_gain[i][c] =
+                    self.coupling[c][i] + free.iter().map(|&j| h[i][j] * law.gain[j][c]).sum::<f64>();
+            }
+        }
+        Some(value)
+    }
+}
+
+/// Energy that letting go of a held control must promise, px³.
+const WORTH_LETTING_GO: f64 = 1e-2;
+
+/// How far a parameter may change in one round without leaving what its derivatives can foresee.
+fn reach(piece: &Piece, index: usize) -> f64 {
+    let length = piece.q[LENGTH];
+    match index {
+        LENGTH => 0.2 * length + 1.0,
+        KAPPA0 | KAPPA1 => 0.3 / length + 0.1 * piece.q[index].abs(),
+        HEADING => 0.3,
+        _ => 3.0,
+    }
+}
+
+/// Stiffness that every control has by itself, against pieces that no datum holds.
+const FLOOR: [f64; Q] = [1e-6, 1e-6, 1e-3, 1e-1, 1e-1, 1e-6];
+
+/// The best change of the first state, and the multipliers.
+fn first_state<const Z: usize>(
+    chain: &Chain,
+    value: &mut Value<Z>,
+    damping: f64,
+    closure: &Closure,
+) -> Option<([f64; 4], [f64; 4])> {
+    let count = closure.count;
+    if count > 0 {
+        // The first state is also what the last must meet.
+        for i in 0..4 {
+            for c in 0..Z {
+                value.h[i][c] += value.h[4 + i][c];
+            }
+        }
+        for i in 0..4 {
+            for c in 0..Z {
+                value.h[c][i] += value.h[c][4 + i];
+            }
+            value.g[i] += value.g[4 + i];
+        }
+    }
+    for i in 0..4 {
+        let reach = reach(&chain.pieces[0], i);
+        value.h[i][i] += damping / (reach * reach) + FLOOR[i];
+    }
+    let roles = roles(chain, 0);
+    let mut free: Vec<usize> = (0..4).filter(|&i| roles[i] == Role::State).collect();
+    let mut held = [0.0; 4];
+    loop {
+        let mut factor = [[0.0; 4]; 4];
+        for (a, &i) in free.iter().enumerate() {
+            for (b, &j) in free.iter().enumerate().take(a + 1) {
+                factor[a][b] = value.h[i][j];
+            }
+        }
+        if !cholesky(&mut factor, free.len(), 1e-13) {
+            return None;
+        }
+        let respond = |column: &dyn Fn(usize) -> f64| {
+            let mut b = [0.0; 4];
+            for (a, &i) in free.iter().enumerate() {
+                b[a] = column(i);
+            }
+            solve(&factor, free.len(), &mut b);
+            let mut out = [0.0; 4];
+            for (a, &i) in free.iter().enumerate() {
+                out[i] = b[a];
+            }
+            out
+        };
+        let pull = |i: usize| -value.g[i] - (0..4).map(|j| value.h[i][j] * held[j]).sum::<f64>();
+        let still = respond(&pull);
+        let mut multipliers = [0.0; 4];
+        let mut by_multiplier = [[0.0; 4]; 4];
+        if count > 0 {
+            for (l, out) in by_multiplier.iter_mut().enumerate().take(count) {
+                *out = respond(&|i| -value.h[i][8 + l]);
+            }
+            // Stationarity in the multipliers, negated to be positive definite.
+            let mut a = [[0.0; 4]; 4];
+            let mut b = [0.0; 4];
+            for l in 0..count {
+                for m in 0..count {
+                    a[l][m] =
+                        -value.h[8 + l][8 + m] - (0..4).map(|i| value.h[8 + l][i] * by_multiplier[m][i]).sum::<f64>();
+                }
+                a[l][l] *= 1.0 + 1e-12;
+                b[l] = value.g[8 + l] + (0..4).map(|i| value.h[8 + l][i] * (still[i] + held[i])).sum::<f64>();
+            }
+            if !cholesky(&mut a, count, 1e-14) {
+                return None;
+            }
+            solve(&a, count, &mut b);
+            multipliers = b;
+        }
+        let mut z = [0.0; 4];
+        for i in 0..4 {
+            z[i] = held[i] + still[i] + (0..count).map(|l| by_multiplier[l][i] * multipliers[l]).sum::<f64>();
+        }
+        if z.iter().chain(&multipliers).any(|v| !v.is_finite()) {
+            return None;
+        }
+        // The first curvature must keep its sign.
+        let (low, high) = first_bounds(chain);
+        let kappa = chain.pieces[0].q[KAPPA0] + z[KAPPA0];
+        if free.contains(&KAPPA0) && (kappa < low - 1e-12 || kappa > high + 1e-12) {
+            free.retain(|&i| i != KAPPA0);
+            held[KAPPA0] = kappa.clamp(low, high) - chain.pieces[0].q[KAPPA0];
+            continue;
+        }
+        return Some((z, multipliers));
+    }
+}
+
+fn first_bounds(chain: &Chain) -> (f64, f64) {
+    bounds(&chain.pieces[0], None, false, KAPPA0)
+}
+
+/// The chain that the plan leads to from the pieces `old`, and which controls it found at their bounds. A full step closes all
+/// gaps; a shorter one leaves its share of them open.
+pub(crate) fn forward<const Z: usize>(
+    chain: &mut Chain,
+    old: &[Piece],
+    plan: &Plan<Z>,
+    step: f64,
+    held: &[Held],
+) -> Vec<Held> {
+    let Plan { laws, first, multipliers, .. } = plan;
+    let mut at_bound: Vec<Held> = vec![[false; Q]; old.len()];
+    let mut state = [0.0; 4];
+    for i in 0..4 {
+        state[i] = old[0].q[i] + step * first[i];
+    }
+    let (low, high) = first_bounds(chain);
+    state[KAPPA0] = state[KAPPA0].clamp(low, high);
+    for k in 0..old.len() {
+        let roles = roles(chain, k);
+        let law = &laws[k];
+        let mut q = old[k].q;
+        let mut input = [0.0; Z];
+        for i in 0..4 {
+            if roles[i] == Role::State {
+                input[i] = state[i] - old[k].q[i];
+                q[i] = state[i];
+            }
+        }
+        if Z == CLOSED {
+            for i in 0..STATE {
+                input[STATE + i] = step * first[i];
+                input[2 * STATE + i] = step * multipliers[i];
+            }
+        }
+        for i in 0..Q {
+            if roles[i] == Role::Control {
+                let change = step * law.feed[i] + (0..Z).map(|c| law.gain[i][c] * input[c]).sum::<f64>();
+                let (low, high) = control_bounds(chain, k, i);
+                let wanted = old[k].q[i] + change;
+                q[i] = wanted.clamp(low, high);
+                at_bound[k][i] = if held[k][i] {
+                    // Let go where the cost falls towards the inside.
+                    let slope = law.slope[i] + (0..Z).map(|c| law.slope_gain[i][c] * input[c]).sum::<f64>();
+                    let gain = slope * reach(&old[k], i);
+                    (q[i] <= low && gain > -WORTH_LETTING_GO) || (q[i] >= high && gain < WORTH_LETTING_GO)
+                } else {
+                    wanted < low || wanted > high
+                };
+            }
+        }
+        match chain.pieces[k].kind {
+            Kind::Line => (q[KAPPA0], q[KAPPA1]) = (0.0, 0.0),
+            Kind::Arc => q[KAPPA1] = q[KAPPA0],
+            Kind::Clothoid => {
+                if roles[KAPPA0] == Role::Fixed {
+                    q[KAPPA0] = 0.0;
+                }
+                if roles[KAPPA1] == Role::Fixed {
+                    q[KAPPA1] = 0.0;
+                }
+            }
+        }
+        chain.pieces[k].q = q;
+        state = end(&q);
+        if step < 1.0 && k + 1 < old.len() {
+            let gap = gap_before(chain, old, k + 1);
+            for i in 0..4 {
+                state[i] -= (1.0 - step) * gap[i];
+            }
+        }
+    }
+    at_bound
+}
