@@ -157,25 +157,20 @@ pub(crate) fn walk(primitive: &Primitive, data: &[Datum], end_factor: f64) -> Wa
 /// As [`walk`], given about where the `feet` of the first so many data are, by arc length; gives those of all.
 pub(crate) fn walk_near(primitive: &Primitive, data: &[Datum], end_factor: f64, feet: &mut Vec<f64>) -> Walked {
     let mut start = Walker::new(primitive);
-    let foot = start.project(data[0].point).s;
+    let foot = start.foot(data[0].point).unwrap_or_else(|| start.project(data[0].point)).s;
     start.go_to(foot);
-    let primitive = Primitive {
-        start: start.position,
-        heading: primitive.heading + foot * (primitive.kappa + 0.5 * primitive.sharpness * foot),
-        kappa: start.kappa,
-        sharpness: primitive.sharpness,
-    };
-    let mut walker = Walker::new(&primitive);
+    let (primitive, mut walker) = start.begun_here();
     let tangent = walker.tangent;
     let mut normal = Normal::ZERO;
     let last = data.len() - 1;
+    let moved = foot;
     let known = feet.len();
     feet.resize(data.len(), 0.0);
     for (i, (datum, near)) in data.iter().zip(feet.iter_mut()).enumerate() {
         let foot = if i == 0 {
             Foot { s: 0.0, distance: walker.offset(datum.point) }
         } else if i < known {
-            walker.project_from(*near - foot, datum.point)
+            walker.project_from(*near - moved, datum.point)
         } else {
             walker.project(datum.point)
         };

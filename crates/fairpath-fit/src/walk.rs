@@ -134,7 +134,7 @@ impl Walker {
         self.step_to(s);
     }
 
-    #[inline]
+    #[inline(always)]
     fn step_to(&mut self, s: f64) {
         let Primitive { heading, kappa, sharpness, .. } = self.primitive;
         let tangent = unit(heading + s * (kappa + 0.5 * sharpness * s));
@@ -166,7 +166,7 @@ impl Walker {
     /// Moves to near the foot of a point near the present place.
     #[inline]
     pub(crate) fn project(&mut self, point: Vec2) -> Foot {
-        let (ds, _) = self.towards(point);
+        let ds = self.far_step(point);
         self.project_from(self.s + ds, point)
     }
 
@@ -175,15 +175,13 @@ impl Walker {
     pub(crate) fn project_from(&mut self, s: f64, point: Vec2) -> Foot {
         self.go_to(s);
         for _ in 0..3 {
-            let (ds, distance) = self.towards(point);
-            // A NaN passes, and the caller sees it in the energy.
-            if !(ds.abs() > NEAR_ENOUGH) {
-                return Foot { s: self.s + ds, distance };
+            if let Some(foot) = self.foot(point) {
+                return foot;
             }
+            let ds = self.far_step(point);
             self.go_to(self.s + ds);
         }
-        let (ds, distance) = self.towards(point);
-        Foot { s: self.s + ds, distance }
+        Foot { s: self.s, distance: self.offset(point) }
     }
 
     /// Moves to `s` if the foot of a point is near that place.
@@ -191,21 +189,40 @@ impl Walker {
     pub(crate) fn foot_near(&mut self, s: f64, point: Vec2) -> Option<Foot> {
         let mut there = *self;
         there.go_to(s);
-        let (ds, distance) = there.towards(point);
-        (ds.abs() < NEAR_ENOUGH).then(|| {
-            *self = there;
-            Foot { s: s + ds, distance }
-        })
+        let foot = there.foot(point)?;
+        *self = there;
+        Some(foot)
     }
 
-    /// How far along the curve the foot of a point lies from here, and the point's signed distance there, both to second order.
+    /// The foot of a point, if it is near: to second order.
     #[inline]
-    fn towards(&self, point: Vec2) -> (f64, f64) {
+    pub(crate) fn foot(&self, point: Vec2) -> Option<Foot> {
+        let (along, across) = self.seen(point);
+        let ds = self.straight_step(along, across);
+        // A NaN passes, and the caller sees it in the energy.
+        let near = !(ds.abs() > NEAR_ENOUGH);
+        // On the way there the distance changes by half of this.
+        near.then(|| Foot { s: self.s + ds, distance: across - 0.5 * self.kappa * ds * along })
+    }
+
+    /// A point along and across the tangent.
+    #[inline]
+    fn seen(&self, point: Vec2) -> (f64, f64) {
         let v = point - self.position;
-        let (along, across) = (self.tangent.dot(v), self.tangent.cross(v));
-        // The foot on the osculating circle, by the series of the arc tangent; near the circle's centre, where every
-        // point is as near, the step is held back.
-        let straight = along / (1.0 - self.kappa * across).max(0.3);
+        (self.tangent.dot(v), self.tangent.cross(v))
+    }
+
+    /// Newton's step towards a foot; near the centre of curvature, where every point is as near, it is held back.
+    #[inline]
+    fn straight_step(&self, along: f64, across: f64) -> f64 {
+        along / (1.0 - self.kappa * across).max(0.3)
+    }
+
+    /// A step towards a foot that is not near: on the osculating circle, by the series of the arc tangent.
+    #[inline]
+    fn far_step(&self, point: Vec2) -> f64 {
+        let (along, across) = self.seen(point);
+        let straight = self.straight_step(along, across);
         let t = self.kappa * straight;
         let t2 = t * t;
         let ds = if t2 < 0.4 {
@@ -213,11 +230,21 @@ impl Walker {
         } else {
             straight / (1.0 + 0.28 * t2)
         };
-        // No step turns by more than this.
+        // Sharpness may let it turn more than that.
         let turn = (self.kappa.abs() + (self.primitive.sharpness * ds).abs()) * ds.abs();
-        let ds = if turn > LARGEST_TURN { ds * (LARGEST_TURN / turn) } else { ds };
-        // On the way there the distance changes by half of this.
-        (ds, across - 0.5 * t * along)
+        if turn > LARGEST_TURN { ds * (LARGEST_TURN / turn) } else { ds }
+    }
+
+    /// The primitive from here on, and a walker at its start.
+    pub(crate) fn begun_here(&self) -> (Primitive, Self) {
+        let Primitive { heading, kappa, sharpness, .. } = self.primitive;
+        let primitive = Primitive {
+            start: self.position,
+            heading: heading + self.s * (kappa + 0.5 * sharpness * self.s),
+            kappa: self.kappa,
+            sharpness,
+        };
+        (primitive, Self { s: 0.0, primitive, first: Vec2::ZERO, second: Vec2::ZERO, ..*self })
     }
 
     /// Derivatives of the position's normal component by start offset (along the start's normal), heading, curvature at the
