@@ -6,8 +6,8 @@
 
 use crate::options::FitOptions;
 use crate::polyline::Polyline;
-use crate::primitive_fit::{chord, circle_through, refine, walk_line};
-use crate::walk::Datum;
+use crate::primitive_fit::{Walked, chord, circle_through, refine, walk_line};
+use crate::walk::{Datum, Walker};
 use fairpath_curve::{Vec2, trig};
 
 /// Distance of the evenly spaced points on which corners are looked for, px.
@@ -83,8 +83,52 @@ pub(crate) fn corners(line: &Polyline, closed: bool, grain: f64, options: &FitOp
         }
     }
     kept.sort_unstable();
-    kept.into_iter().map(|i| spacing * i as f64).collect()
+    kept.into_iter()
+        .map(|i| spacing * i as f64)
+        .filter(|&s| rounding(line, s, closed, fineness, options).is_none_or(|radius| radius < options.corner_radius))
+        .collect()
 }
+
+/// The radius to which the stroke is rounded at a corner, px; nothing if it stays within the tremor of a sharp one.
+///
+/// Both sides are prolonged from beyond the rounding. A sharp corner has its vertices on one side or the other; a round one turned by θ
+/// passes at `r (1 − cos ½θ)` inside of both.
+fn rounding(line: &Polyline, corner: f64, closed: bool, fineness: f64, options: &FitOptions) -> Option<f64> {
+    let length = line.length();
+    let clear = fineness * CLEAR;
+    let side = |direction: f64| {
+        let mut hint = 0;
+        let run: Vec<Datum> = (0..SIDE_POINTS)
+            .filter_map(|j| {
+                let away = clear + fineness * SIDE * j as f64 / (SIDE_POINTS - 1) as f64;
+                let s = corner + direction * away;
+                let s = if closed { s.rem_euclid(length) } else { s };
+                let within = (0.0..=length).contains(&s);
+                within.then(|| Datum { point: line.at(s, &mut hint), s: away, weight: 1.0 })
+            })
+            .collect();
+        (run.len() >= MIN_SIDE).then(|| line_or_arc(&run, options.corner_noise * options.corner_noise).primitive)
+    };
+    let sides = [side(-1.0)?, side(1.0)?];
+    let apart = |s: f64| {
+        let d = (s - corner).abs();
+        if closed { d.min(length - d) } else { d }
+    };
+    let vertices = line.points.iter().zip(&line.s).filter(|(_, s)| apart(**s) < clear).map(|(p, _)| *p);
+    let inside =
+        |p: Vec2| sides.map(|side| Walker::new(&side).project(p).distance.abs()).into_iter().fold(f64::MAX, f64::min);
+    let most = vertices.map(inside).fold(0.0, f64::max);
+    let turn = trig::wrap_angle(sides[1].heading - sides[0].heading - std::f64::consts::PI);
+    (most > TREMOR * options.corner_noise).then(|| most / (1.0 - trig::sin_cos(0.5 * turn).1))
+}
+
+/// Distance from a corner at which its sides are taken to begin, and their length, px.
+const CLEAR: f64 = 7.0;
+const SIDE: f64 = 10.0;
+const SIDE_POINTS: usize = 9;
+
+/// A vertex further from both sides than this many times the tremor tells of a rounding.
+const TREMOR: f64 = 2.5;
 
 /// The angle between two chords, radians.
 fn turn_between(into: Vec2, out: Vec2) -> f64 {
@@ -125,14 +169,7 @@ fn strength(
     let mut side = |range: &mut dyn Iterator<Item = isize>| {
         run.clear();
         run.extend(range.zip(0..).map(|(j, s)| Datum { point: at(j), s: f64::from(s), weight: 1.0 }));
-        let line = walk_line(&chord(run), run, 1.0);
-        let line = line.normal.step(2).map_or(line, |step| walk_line(&line.primitive.moved(&step), run, 1.0));
-        // What a line describes to within the tremor needs no arc.
-        if line.normal.energy < 0.5 * floor * line.normal.weight {
-            return line;
-        }
-        let fit = refine(&circle_through(run), run, 3, 2, 1.0);
-        if fit.normal.energy.is_finite() && fit.normal.energy <= line.normal.energy { fit } else { line }
+        line_or_arc(run, floor)
     };
     let back = side(&mut (1..=left).map(|j| -j));
     let forth = side(&mut (1..=right));
@@ -152,4 +189,15 @@ fn strength(
     };
     let remaining = sides + floor;
     (one - sides >= options.corner_score * remaining).then(|| jump / remaining)
+}
+
+/// The arc that describes a run best, or a line where that does to within the tremor.
+fn line_or_arc(run: &[Datum], floor: f64) -> Walked {
+    let line = walk_line(&chord(run), run, 1.0);
+    let line = line.normal.step(2).map_or(line, |step| walk_line(&line.primitive.moved(&step), run, 1.0));
+    if line.normal.energy < 0.5 * floor * line.normal.weight {
+        return line;
+    }
+    let arc = refine(&circle_through(run), run, 3, 2, 1.0);
+    if arc.normal.energy.is_finite() && arc.normal.energy <= line.normal.energy { arc } else { line }
 }

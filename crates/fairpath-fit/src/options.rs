@@ -115,6 +115,9 @@ pub struct FitOptions {
     /// Tremor taken for granted when that is judged.
     #[schemars(extend("unit" = "px"))]
     pub corner_noise: f64,
+    /// A corner rounded to this radius or more is a bend.
+    #[schemars(extend("unit" = "px"))]
+    pub corner_radius: f64,
     /// Largest neighbourhood on each side of a corner; three smaller ones are looked at as well.
     #[schemars(extend("unit" = "px"))]
     pub corner_window: f64,
@@ -226,6 +229,7 @@ impl FitOptions {
             corner_score: 3.0,
             corner_share: 0.75,
             corner_noise: 0.5,
+            corner_radius: 3.3,
             corner_window: 26.0,
             corner_distance: 12.0,
             resampling: Resampling::Even,
@@ -243,9 +247,9 @@ impl FitOptions {
             g0_cost: None,
             g1_cost: None,
             g2_cost: Some(0.0),
-            error_cost: 3.8,
+            error_cost: 5.0,
             deviation: Deviation::Rms,
-            free_error: 1.0,
+            free_error: 1.3,
             shortness_cost: 0.5,
             short_length: 30.0,
             free_share: 0.01,
@@ -313,13 +317,14 @@ impl FitOptions {
         let (share, sampled, circle) = (within(0.0, 1.0), within(0.25, 1e6), within(4.0, 200.0));
         let (window, angle, falloff) = (within(4.0, 1000.0), within(1.0, 179.0), within(0.01, 10.0));
         let (pixel, limit) = (within(1e-12, 1e12), within(0.01, 1e4));
-        let rules: [Rule; 26] = [
+        let rules: [Rule; 27] = [
             ("pixel_size", self.pixel_size, &pixel, "1e-12 to 1e12"),
             ("closing_gap", self.closing_gap, &not_negative, "0 or more"),
             ("corner_angle", self.corner_angle, &angle, "1 to 179 degrees"),
             ("corner_score", self.corner_score, &not_negative, "0 or more"),
             ("corner_share", self.corner_share, &share, "0 to 1"),
             ("corner_noise", self.corner_noise, &positive, "more than 0"),
+            ("corner_radius", self.corner_radius, &positive, "more than 0"),
             ("corner_window", self.corner_window, &window, "4 to 1000 px"),
             ("corner_distance", self.corner_distance, &not_negative, "0 or more"),
             ("sampling_falloff", self.sampling_falloff, &falloff, "0.01 to 10"),

@@ -49,7 +49,33 @@ pub(crate) struct Chain<'a> {
     pub(crate) closed: bool,
     /// Weight of the ends and corners relative to the other data.
     pub(crate) end_factor: f64,
+    pub(crate) short: Option<Shortness>,
+    /// Where the ends of a part of a longer chain must stay to meet the rest.
+    pub(crate) pins: [Option<Pin>; 2],
 }
+
+/// The pose at which a part of a chain meets the rest: x, y, heading, curvature, of which the first `count` must agree.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Pin {
+    pub(crate) pose: [f64; 4],
+    pub(crate) count: usize,
+}
+
+/// What resists pieces that become short: a merge that knows only distances would let them vanish (section 3.4 prices them, section 3.6 is
+/// silent).
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Shortness {
+    /// Pieces shorter than this are short, px.
+    pub(crate) length: f64,
+    /// Energy for the square of what is missing, px.
+    pub(crate) stiffness: f64,
+}
+
+/// No piece is short that has this share of what falls to each between two corners.
+const FAIR_SHARE: f64 = 0.6;
+
+/// Stiffness of a pin in position, heading and curvature.
+const PIN_STIFFNESS: [f64; 4] = [30.0, 30.0, 12e3, 12e5];
 
 /// Normal equations of one piece.
 #[derive(Clone, Copy, Debug)]
@@ -75,6 +101,14 @@ pub(crate) struct Measured {
     pub(crate) energy: f64,
     /// Where the foot of each datum is: arc length from the start of its stretch, pieces laid end to end.
     feet: Vec<f64>,
+}
+
+impl Measured {
+    /// Adds to the energy what a piece lacks in something other than distance to data.
+    fn resist(&mut self, piece: usize, row: &[f64; Q], lacks: f64, stiffness: f64) {
+        self.normals[piece].add(row, lacks, stiffness);
+        self.energy += stiffness * lacks * lacks;
+    }
 }
 
 impl PieceNormal {
@@ -147,7 +181,39 @@ impl Chain<'_> {
         for (pieces, data) in self.stretches() {
             self.measure_stretch(pieces, data, near, &mut out);
         }
+        self.add_shortness(&mut out);
+        self.add_pins(&mut out);
         out
+    }
+
+    fn add_shortness(&self, out: &mut Measured) {
+        let Some(Shortness { length, stiffness }) = self.short else { return };
+        for (pieces, _) in self.stretches() {
+            let all: f64 = self.pieces[pieces.clone()].iter().map(|p| p.q[LENGTH]).sum();
+            let wanted = length.min(FAIR_SHARE * all / pieces.len() as f64);
+            for k in pieces {
+                let missing = wanted - self.pieces[k].q[LENGTH];
+                if missing > 0.0 {
+                    out.resist(k, &[0.0, 0.0, 0.0, 0.0, 0.0, 1.0], missing, stiffness);
+                }
+            }
+        }
+    }
+
+    fn add_pins(&self, out: &mut Measured) {
+        let last = self.pieces.len() - 1;
+        let first = &self.pieces[0].q;
+        let still = std::array::from_fn(|i| std::array::from_fn(|j| f64::from(u8::from(i == j))));
+        let ends = [(0, [first[0], first[1], first[2], first[3]], still), {
+            let (arrived, rows) = end_with_jacobian(&self.pieces[last].q);
+            (last, arrived, rows)
+        }];
+        for (pin, (piece, pose, rows)) in self.pins.iter().zip(ends) {
+            let Some(pin) = pin else { continue };
+            for i in 0..pin.count {
+                out.resist(piece, &rows[i], pin.pose[i] - pose[i], PIN_STIFFNESS[i]);
+            }
+        }
     }
 
     fn measure_stretch(&self, pieces: Range<usize>, data: Range<usize>, near: &[f64], out: &mut Measured) {
@@ -156,9 +222,10 @@ impl Chain<'_> {
         // Length of the pieces before this one.
         let mut before = 0.0;
         let (first, last) = (data.start, data.end - 1);
-        // The seam of a smoothly closed chain is no end: its data are ordinary.
+        // The seam of a smoothly closed chain is no end, nor is a pin: their data are ordinary.
         let ring = self.closed && self.joins[self.pieces.len() - 1] != Continuity::G0;
-        let (open_start, open_end) = (!(ring && first == 0), !(ring && last + 1 == self.data.len()));
+        let goes_on = self.pins.map(|pin| ring || pin.is_some());
+        let (open_start, open_end) = (!(goes_on[0] && first == 0), !(goes_on[1] && last + 1 == self.data.len()));
         let mut walker = Walker::new(&primitive(&self.pieces[k]));
         for i in data {
             let datum = self.data[i];

@@ -5,7 +5,7 @@
 //! the piece and its neighbours, merged anew, and kept if what it really costs is less. Beyond the paper.
 
 use super::candidates::{deviation, penalty};
-use super::chain::{Chain, KAPPA0, KAPPA1, LENGTH, Measured, Piece, end};
+use super::chain::{Chain, KAPPA0, KAPPA1, LENGTH, Measured, Piece, Pin, end};
 use super::merge::{Effort, is_hopeful, merge, merge_while};
 use super::transition::possible;
 use crate::options::FitOptions;
@@ -331,6 +331,14 @@ fn tried(chain: &Chain, measured: &Measured, change: &Change, options: &FitOptio
     let mut joins = chain.joins[from..change.range.start].to_vec();
     joins.extend(std::iter::repeat_n(change.level, change.with.len() - 1));
     joins.extend_from_slice(&chain.joins[change.range.end - 1..to - 1]);
+    let n = chain.pieces.len();
+    // Where the window ends within the chain it must still meet what comes before and after.
+    let pin = |join: usize, pose: [f64; 4]| {
+        let level = *chain.joins.get(join)?;
+        (level != Continuity::G0).then(|| Pin { pose, count: level as usize + 2 })
+    };
+    let q = chain.pieces[from].q;
+    let pins = [pin((from + n - 1) % n, [q[0], q[1], q[2], q[KAPPA0]]), pin(to - 1, end(&chain.pieces[to - 1].q))];
     let mut part = Chain {
         pieces,
         joins,
@@ -338,6 +346,8 @@ fn tried(chain: &Chain, measured: &Measured, change: &Change, options: &FitOptio
         corners: Vec::new(),
         closed: false,
         end_factor: chain.end_factor,
+        short: chain.short,
+        pins,
     };
     if part.data.len() < 3 {
         return None;

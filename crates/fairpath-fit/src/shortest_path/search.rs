@@ -2,7 +2,7 @@
 //! dearer than estimated are repriced, and the search is repeated until nothing changes.
 
 use super::candidates::{Candidate, penalty};
-use super::chain::{Chain, Piece};
+use super::chain::{Chain, Piece, Shortness};
 use super::graph::{Distances, Edge, Goal, Graph, Node, Path};
 use super::merge::{Effort, merge};
 use super::transition::overlap;
@@ -217,8 +217,13 @@ pub(crate) fn chain<'a>(
         }
         _ => course.run(start, end),
     };
-    Chain { pieces, joins, data, corners, closed, end_factor: options.end_factor }
+    let stiffness = SHORT_STIFFNESS * options.shortness_cost;
+    let short = whole.map(|_| Shortness { length: options.short_length, stiffness });
+    Chain { pieces, joins, data, corners, closed, end_factor: options.end_factor, short, pins: [None; 2] }
 }
+
+/// Energy for a unit of the cost of shortness, px³.
+const SHORT_STIFFNESS: f64 = 0.5;
 
 /// The signs that curvatures must keep so that no inflection arises which the path has not paid for (section 3.8): those of the path,
 /// lifted for arcs, for clothoids that inflect anyway, and where a G2 join changes sign.
