@@ -96,25 +96,33 @@ pub(crate) fn corners(line: &Polyline, closed: bool, grain: f64, options: &FitOp
 fn rounding(line: &Polyline, corner: f64, closed: bool, fineness: f64, options: &FitOptions) -> Option<f64> {
     let length = line.length();
     let clear = fineness * CLEAR;
+    let at = |s: f64| {
+        let s = if closed { s.rem_euclid(length) } else { s };
+        line.at(s, &mut line.s.partition_point(|&v| v <= s).saturating_sub(1))
+    };
     let side = |direction: f64| {
-        let mut hint = 0;
         let run: Vec<Datum> = (0..SIDE_POINTS)
-            .filter_map(|j| {
-                let away = clear + fineness * SIDE * j as f64 / (SIDE_POINTS - 1) as f64;
-                let s = corner + direction * away;
-                let s = if closed { s.rem_euclid(length) } else { s };
-                let within = (0.0..=length).contains(&s);
-                within.then(|| Datum { point: line.at(s, &mut hint), s: away, weight: 1.0 })
-            })
+            .map(|j| clear + fineness * SIDE * j as f64 / (SIDE_POINTS - 1) as f64)
+            .filter(|away| closed || (0.0..=length).contains(&(corner + direction * away)))
+            .map(|away| Datum { point: at(corner + direction * away), s: away, weight: 1.0 })
             .collect();
         (run.len() >= MIN_SIDE).then(|| line_or_arc(&run, options.corner_noise * options.corner_noise).primitive)
     };
     let sides = [side(-1.0)?, side(1.0)?];
-    let apart = |s: f64| {
-        let d = (s - corner).abs();
-        if closed { d.min(length - d) } else { d }
+    let between = |low: f64, high: f64| line.s.partition_point(|&s| s <= low)..line.s.partition_point(|&s| s < high);
+    let mut near: Vec<usize> = between(corner - clear, corner + clear).collect();
+    if closed {
+        near.extend(between(corner - clear + length, length));
+        near.extend(between(0.0, corner + clear - length));
+    }
+    let turn_at = |i: usize| {
+        let (s, p) = (line.s[i], line.points[i]);
+        turn_between(p - at(s - STEP), at(s + STEP) - p)
     };
-    let vertices = line.points.iter().zip(&line.s).filter(|(_, s)| apart(**s) < clear).map(|(p, _)| *p);
+    if near.iter().any(|&i| turn_at(i) > SHARP) {
+        return None;
+    }
+    let vertices = near.iter().map(|&i| line.points[i]);
     let inside =
         |p: Vec2| sides.map(|side| Walker::new(&side).project(p).distance.abs()).into_iter().fold(f64::MAX, f64::min);
     let most = vertices.map(inside).fold(0.0, f64::max);
@@ -126,6 +134,11 @@ fn rounding(line: &Polyline, corner: f64, closed: bool, fineness: f64, options: 
 const CLEAR: f64 = 7.0;
 const SIDE: f64 = 10.0;
 const SIDE_POINTS: usize = 9;
+
+/// A vertex at which the stroke turns by more than this between steps of that length is sharp, radians and px: on a bend the turning
+/// is spread.
+const SHARP: f64 = 1.0;
+const STEP: f64 = 2.5;
 
 /// A vertex further from both sides than this many times the tremor tells of a rounding.
 const TREMOR: f64 = 2.5;

@@ -18,6 +18,7 @@ mod clean;
 mod closure;
 mod corners;
 mod direction;
+mod hooks;
 mod linear;
 mod options;
 mod polyline;

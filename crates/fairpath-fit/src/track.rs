@@ -3,6 +3,7 @@
 use crate::clean::Cleaned;
 use crate::closure::close;
 use crate::corners::corners;
+use crate::hooks::unhooked;
 use crate::options::FitOptions;
 use crate::polyline::Polyline;
 use crate::resample::{rate, resample};
@@ -86,7 +87,7 @@ impl Course {
 /// Prepares a stroke (sections 3.1 and 3.2).
 pub(crate) fn prepare(cleaned: &Cleaned, options: &FitOptions) -> Track {
     let Some(closed) = close(&cleaned.points, options) else {
-        let line = Polyline::new(cleaned.points.clone());
+        let line = Polyline::new(unhooked(&cleaned.points, options.max_error).to_vec());
         let bends = corners(&line, false, cleaned.grain, options);
         return assemble(&line, Shape::Open, &bends, cleaned.grain, options, 0);
     };
