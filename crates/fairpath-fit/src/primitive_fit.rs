@@ -206,6 +206,11 @@ pub(crate) fn refine(initial: &Primitive, data: &[Datum], n: usize, rounds: usiz
     let mut best = walk(initial, data, end_factor);
     for _ in 0..rounds {
         let Some(step) = best.normal.step(n) else { break };
+        // The step's own forecast of what it gains.
+        let gain: f64 = (0..n).map(|i| step[i] * best.normal.gradient[i]).sum();
+        if gain < 1e-3 * best.normal.energy {
+            break;
+        }
         let next = walk(&best.primitive.moved(&step), data, end_factor);
         // A NaN is not an improvement either.
         if !(next.normal.energy <= best.normal.energy) {

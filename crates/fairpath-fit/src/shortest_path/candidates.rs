@@ -19,8 +19,12 @@ pub(crate) struct Candidate {
     pub(crate) error: f64,
     /// Largest distance of the data to it, px (equation 2).
     pub(crate) largest: f64,
-    /// Sum of the weights of its data, px.
-    pub(crate) weight: f64,
+    /// What that costs: `p(τ)`.
+    pub(crate) penalty: f64,
+    /// Square of the deviation that a unit of weighted squared distance adds at a join, px².
+    pub(crate) spread: f64,
+    /// How far a join may slide from the middle of its overlap: a quarter of a sample interval, px.
+    pub(crate) slide: f64,
     /// Its state where it may be joined: at its first and second sample, and at its last and last but one.
     pub(crate) head: [JoinState; 2],
     pub(crate) tail: [JoinState; 2],
@@ -358,7 +362,9 @@ fn make(
         length,
         error,
         largest: normal.max,
-        weight: normal.weight,
+        penalty: penalty(error, options),
+        spread: options.transition_peak * options.transition_peak / normal.weight,
+        slide: 0.25 * length / (last - first) as f64,
         head: [JoinState::NONE; 2],
         tail: [JoinState::NONE; 2],
         cost: family.cost + penalty(error, options) + options.shortness_cost * short * short,
