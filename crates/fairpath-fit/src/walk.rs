@@ -73,6 +73,9 @@ const MOST_STEPS: f64 = 64.0;
 /// A foot is found when the point lies across the curve to within this, px: the distance there is corrected for the rest.
 const NEAR_ENOUGH: f64 = 1.0;
 
+/// In tight bends it must be nearer, to within a turn of one over the root of this.
+const TIGHTNESS: f64 = 25.0;
+
 /// The unit vector with a heading: error below 1e-14, so that a stroke that is turned is walked alike.
 #[inline]
 fn unit(heading: f64) -> Vec2 {
@@ -194,7 +197,7 @@ impl Walker {
         let (along, across) = self.seen(point);
         let ds = self.straight_step(along, across);
         // A NaN passes, and the caller sees it in the energy.
-        let near = !(ds.abs() > NEAR_ENOUGH);
+        let near = !(ds * ds * (1.0 + TIGHTNESS * self.kappa * self.kappa) > NEAR_ENOUGH * NEAR_ENOUGH);
         // On the way there the distance changes by half of this.
         near.then_some(Foot { s: self.s + ds, distance: across - 0.5 * self.kappa * ds * along })
     }
