@@ -178,8 +178,16 @@ pub(crate) fn walk_near(primitive: &Primitive, data: &[Datum], end_factor: f64, 
         let w = if i == 0 || i == last { end_factor * datum.weight } else { datum.weight };
         normal.add(&walker.row(tangent), foot.distance, w);
     }
-    Walked { primitive, length: feet[last], normal }
+    let length = feet[last];
+    if feet.iter().any(|s| !(-ASIDE..=length + ASIDE).contains(s)) {
+        // The curve turns back: it does not follow the points from the first to the last.
+        normal.max = f64::INFINITY;
+    }
+    Walked { primitive, length, normal }
 }
+
+/// How far before the first and beyond the last foot another may be, px.
+const ASIDE: f64 = 2.0;
 
 /// The chord of a run of points, as a primitive.
 pub(crate) fn chord(data: &[Datum]) -> Primitive {
@@ -206,6 +214,11 @@ pub(crate) fn refine(initial: &Primitive, data: &[Datum], n: usize, rounds: usiz
     let mut best = walk(initial, data, end_factor);
     for _ in 0..rounds {
         let Some(step) = best.normal.step(n) else { break };
+        // The step's own forecast of what it gains.
+        let gain: f64 = (0..n).map(|i| step[i] * best.normal.gradient[i]).sum();
+        if gain < 1e-3 * best.normal.energy {
+            break;
+        }
         let next = walk(&best.primitive.moved(&step), data, end_factor);
         // A NaN is not an improvement either.
         if !(next.normal.energy <= best.normal.energy) {

@@ -19,8 +19,12 @@ pub(crate) struct Candidate {
     pub(crate) error: f64,
     /// Largest distance of the data to it, px (equation 2).
     pub(crate) largest: f64,
-    /// Sum of the weights of its data, px.
-    pub(crate) weight: f64,
+    /// What that costs: `p(τ)`.
+    pub(crate) penalty: f64,
+    /// Square of the deviation that a unit of weighted squared distance adds at a join, px².
+    pub(crate) spread: f64,
+    /// How far a join may slide from the middle of its overlap: a quarter of a sample interval, px.
+    pub(crate) slide: f64,
     /// Its state where it may be joined: at its first and second sample, and at its last and last but one.
     pub(crate) head: [JoinState; 2],
     pub(crate) tail: [JoinState; 2],
@@ -263,30 +267,49 @@ fn constrained(
     for flat_start in [true, false] {
         let mut fit = *free;
         feet.clone_from(&family.feet);
-        for _ in 0..2 {
-            let Some(p) = flat_end_step(&fit.primitive, fit.length, &fit.normal, flat_start) else { break };
+        let mut hopeful = true;
+        for round in 0..2 {
+            let Some((p, forecast)) = flat_end_step(&fit.primitive, fit.length, &fit.normal, flat_start) else { break };
+            let error = deviation(forecast, fit.normal.weight, 0.0, options);
+            hopeful = penalty(error, options) <= hopeless(options);
+            let gain = fit.normal.energy - forecast;
+            if !hopeful || (round > 0 && gain < WORTH_A_STEP * fit.normal.energy + 1e-3 * fit.normal.weight) {
+                break;
+            }
             fit = walk_near(&p, data, options.end_factor, &mut feet);
+        }
+        if !hopeful || !(fit.normal.max <= options.max_error) || !(fit.length > 0.0) {
+            continue;
         }
         // Walking moves the start by a hair; the condition is set again exactly.
         let mut p = fit.primitive;
-        if flat_start {
+        let square = fit.length * fit.length;
+        let moved = if flat_start {
+            let by = p.kappa;
             p.kappa = 0.0;
+            by * square * (1.0 / 2.0)
         } else {
-            p.sharpness = -p.kappa / fit.length;
-        }
-        if !(fit.normal.max <= options.max_error) || !(fit.length > 0.0) || p.sharpness == 0.0 {
+            let by = p.sharpness + p.kappa / fit.length;
+            p.sharpness -= by;
+            by * square * fit.length * (1.0 / 6.0)
+        };
+        if p.sharpness == 0.0 {
             continue;
         }
-        // Setting it moves the far end of a long or tight one: it is measured as it is now.
-        let exact = walk_near(&p, data, options.end_factor, &mut feet);
-        if exact.normal.max <= options.max_error {
-            out.push(make(family, &p, fit.length, &exact.normal, span, track, options));
+        // If that moves the far end of a long or tight one, it is measured as it is now.
+        if moved.abs() > 0.1 {
+            let length = fit.length;
+            fit = walk_near(&p, data, options.end_factor, &mut feet);
+            fit.length = length;
+        }
+        if fit.normal.max <= options.max_error {
+            out.push(make(family, &p, fit.length, &fit.normal, span, track, options));
         }
     }
 }
 
-/// One Gauss–Newton step of a clothoid whose curvature is zero at one end.
-fn flat_end_step(p: &Primitive, length: f64, normal: &Normal, flat_start: bool) -> Option<Primitive> {
+/// One Gauss–Newton step of a clothoid whose curvature is zero at one end, and the energy that it forecasts.
+fn flat_end_step(p: &Primitive, length: f64, normal: &Normal, flat_start: bool) -> Option<(Primitive, f64)> {
     // With t = (offset, heading, x): curvature = 0 and sharpness = x, or curvature = −x length and sharpness = x.
     let by = if flat_start { [0.0, 1.0] } else { [-length, 1.0] };
     let now = if flat_start { p.sharpness } else { -p.kappa / length };
@@ -312,7 +335,11 @@ fn flat_end_step(p: &Primitive, length: f64, normal: &Normal, flat_start: bool) 
     solve(&a, 3, &mut b);
     let x = now + b[2];
     let step = [b[0], b[1], by[0] * x - p.kappa, by[1] * x - p.sharpness];
-    step.iter().all(|v| v.is_finite()).then(|| p.moved(&step))
+    let forecast = normal.energy
+        + (0..4)
+            .map(|i| step[i] * ((0..4).map(|j| full(i, j) * step[j]).sum::<f64>() - 2.0 * normal.gradient[i]))
+            .sum::<f64>();
+    step.iter().all(|v| v.is_finite()).then(|| (p.moved(&step), forecast.max(0.0)))
 }
 
 /// Completes a candidate: its states at the joins and its cost.
@@ -335,7 +362,9 @@ fn make(
         length,
         error,
         largest: normal.max,
-        weight: normal.weight,
+        penalty: penalty(error, options),
+        spread: options.transition_peak * options.transition_peak / normal.weight,
+        slide: 0.25 * length / (last - first) as f64,
         head: [JoinState::NONE; 2],
         tail: [JoinState::NONE; 2],
         cost: family.cost + penalty(error, options) + options.shortness_cost * short * short,

@@ -6,7 +6,7 @@
 //! at the first that cannot improve on what is found.
 
 use super::candidates::Candidate;
-use super::transition::{at_least, estimate, overlap, possible};
+use super::transition::{Door, at_least, estimate, overlap, possible};
 use crate::options::FitOptions;
 use crate::track::Track;
 use fairpath_curve::{Continuity, Kind};
@@ -36,6 +36,9 @@ pub(crate) struct Edge {
 pub(crate) struct Graph<'a> {
     pub(crate) candidates: &'a [Candidate],
     pub(crate) nodes: Vec<Node>,
+    /// How each candidate begins and ends.
+    heads: Vec<Door>,
+    tails: Vec<Door>,
     corner: &'a [bool],
     options: &'a FitOptions,
     /// Nodes that start at each sample.
@@ -67,7 +70,18 @@ impl<'a> Graph<'a> {
             at = end;
         }
         let touched = vec![false; nodes.len()];
-        Self { candidates, nodes, corner: &track.corner, options, starts, learnt: HashMap::new(), touched, computed: 0 }
+        Self {
+            candidates,
+            nodes,
+            heads: candidates.iter().map(|c| Door::head(c, options)).collect(),
+            tails: candidates.iter().map(|c| Door::tail(c, options)).collect(),
+            corner: &track.corner,
+            options,
+            starts,
+            learnt: HashMap::new(),
+            touched,
+            computed: 0,
+        }
     }
 
     pub(crate) fn starting_at(&self, sample: usize) -> std::ops::Range<usize> {
@@ -106,8 +120,8 @@ impl<'a> Graph<'a> {
         if !possible(u.kind, v.kind, level) {
             return f64::INFINITY;
         }
-        let (cu, cv) = (&self.candidates[u.candidate as usize], &self.candidates[v.candidate as usize]);
-        self.sign_cost(Edge { from, to, level }) + at_least(cu, cv, level, self.options)
+        let (tail, head) = (&self.tails[u.candidate as usize], &self.heads[v.candidate as usize]);
+        self.sign_cost(Edge { from, to, level }) + at_least(tail, head, level, self.options)
     }
 
     /// The cost of an edge before verification.
@@ -208,6 +222,8 @@ pub(crate) struct Distances {
     order: Vec<Vec<u32>>,
     /// Nodes whose way on leads to a node.
     leading_to: Vec<Vec<u32>>,
+    /// Nodes whose distances repairs have left too short.
+    stale: Vec<u32>,
     goal: Goal,
     /// The sample from which positions are counted, and the one at which the search ends.
     origin: usize,
@@ -229,6 +245,7 @@ impl Distances {
             onward: vec![Onward::Nowhere; n],
             order: vec![Vec::new(); turn],
             leading_to: vec![Vec::new(); n],
+            stale: Vec::new(),
             goal,
             origin,
             target: origin + turn,
@@ -315,8 +332,8 @@ impl Distances {
     }
 
     /// Brings distances up to date after the edges from `from` got dearer, up to `reach` samples before each. What lies further
-    /// back keeps distances that are too short by nearly the same amount, so that its choices rarely change; a search ends with
-    /// distances computed anew.
+    /// back keeps distances that are too short by nearly the same amount, so that its choices rarely change, until it is
+    /// [settled](Self::settle).
     pub(crate) fn repair(&mut self, graph: &mut Graph, from: impl IntoIterator<Item = u32>, reach: usize) {
         // Later starts first: what a node's distance depends on is then settled before it.
         let mut open: BTreeSet<(usize, u32)> =
@@ -341,13 +358,27 @@ impl Distances {
             if self.goal != Goal::Around(node) {
                 // The nearest source at or after a place decides whether it is within reach.
                 let within = |place: usize| {
-                    sources.get(sources.partition_point(|&s| s < place)).is_some_and(|s| s - place <= reach)
+                    reach == usize::MAX
+                        || sources.get(sources.partition_point(|&s| s < place)).is_some_and(|s| s - place <= reach)
                 };
                 let leading = self.leading_to[node as usize].iter();
-                let places = leading.map(|&i| (self.position(&graph.nodes[i as usize]), i));
-                open.extend(places.filter(|p| within(p.0)));
+                for &i in leading {
+                    let place = self.position(&graph.nodes[i as usize]);
+                    if within(place) {
+                        open.insert((place, i));
+                    } else {
+                        self.stale.push(i);
+                    }
+                }
             }
         }
+    }
+
+    /// Brings all distances up to date that repairs have left behind, and those of `from`, whose edges got dearer. Costs only grow, so
+    /// what leads to nothing that got dearer stays the shortest.
+    pub(crate) fn settle(&mut self, graph: &mut Graph, from: Option<u32>) {
+        let stale = std::mem::take(&mut self.stale);
+        self.repair(graph, stale.into_iter().chain(from), usize::MAX);
     }
 
     /// The shortest path to the goal by A* (Hart, Nilsson and Raphael 1968), for distances that have become too short since they were

@@ -14,7 +14,7 @@ const SMALL_GAP: f64 = 0.05;
 
 /// Damping to begin with, relative to the energy: for pieces that meet already, and for those that must first be brought together.
 const JOINED: f64 = 1e-2;
-const APART: f64 = 0.2;
+const APART: f64 = 2.0;
 
 /// By how much, relatively, a step may raise the energy, since closing a small gap may cost a little.
 const SLACK: f64 = 1e-4;

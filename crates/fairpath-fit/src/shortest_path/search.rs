@@ -70,7 +70,7 @@ fn verified(
         }
     }
     for _ in 0..options.validation_rounds {
-        // Joins are verified with distances repaired nearby; when the path holds, all distances are computed anew, and it
+        // Joins are verified with distances repaired nearby; when the path holds, all distances are brought up to date, and it
         // is done if the path still holds.
         let mut changed = false;
         for _ in 0..ROUNDS_NEARBY {
@@ -85,7 +85,7 @@ fn verified(
         if !changed {
             break;
         }
-        distances = Distances::new(graph, goal);
+        distances.settle(graph, None);
         path = distances.path()?;
     }
     // What the last round left unverified is taken as estimated, but what cannot be merged at all is avoided.

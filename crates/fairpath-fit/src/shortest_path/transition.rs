@@ -32,38 +32,58 @@ pub(crate) fn estimate(u: &Candidate, v: &Candidate, level: Continuity, options:
     if !(eu <= options.max_join_error || ev <= options.max_join_error) {
         return None;
     }
-    let cost = penalty(eu, options) - penalty(u.error, options) + penalty(ev, options) - penalty(v.error, options);
-    Some(cost.max(0.0))
+    Some((penalty(eu, options) - u.penalty + penalty(ev, options) - v.penalty).max(0.0))
+}
+
+/// What [`at_least`] needs to know of an end of a candidate, side by side: it is asked far more often than [`estimate`].
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Door {
+    curvature: f64,
+    variance: f64,
+    sharpness: f64,
+    slide: f64,
+    /// Square of the deviation, px², and its cost.
+    squared: f64,
+    penalty: f64,
+    spread: f64,
+}
+
+impl Door {
+    pub(crate) fn head(c: &Candidate, options: &FitOptions) -> Self {
+        Self::new(c, &c.head[usize::from(options.g2_overlap >= 2)])
+    }
+
+    pub(crate) fn tail(c: &Candidate, options: &FitOptions) -> Self {
+        Self::new(c, &c.tail[usize::from(options.g2_overlap >= 2)])
+    }
+
+    fn new(c: &Candidate, state: &JoinState) -> Self {
+        Self {
+            curvature: state.curvature,
+            variance: state.covariance[5] + 0.5 * FIRMNESS[2],
+            sharpness: c.primitive.sharpness,
+            slide: c.slide,
+            squared: c.error * c.error,
+            penalty: c.penalty,
+            spread: c.spread,
+        }
+    }
 }
 
 /// A bound from below of [`estimate`] by covariance, at a fraction of its cost: the gap in curvature or heading alone, where the
 /// join may slide as far as it can.
 #[inline]
-pub(crate) fn at_least(u: &Candidate, v: &Candidate, level: Continuity, options: &FitOptions) -> f64 {
+pub(crate) fn at_least(u: &Door, v: &Door, level: Continuity, options: &FitOptions) -> f64 {
     if level < Continuity::G2 || options.transitions == Transitions::Paper || options.g2_overlap == 1 {
         return 0.0;
     }
-    let inner = usize::from(options.g2_overlap >= 2);
-    let (a, b) = (&u.tail[inner], &v.head[inner]);
-    let reach = slide_reach(u, v);
-    let slope = (v.primitive.sharpness - u.primitive.sharpness).abs();
-    let bend = (b.curvature - a.curvature).abs();
-    let bend_left = (bend - reach * slope).max(0.0);
-    let variance = a.covariance[5] + b.covariance[5] + FIRMNESS[2];
-    let energy = 0.5 * bend_left * bend_left / variance;
+    let slope = (v.sharpness - u.sharpness).abs();
+    let bend = (v.curvature - u.curvature).abs();
+    let bend_left = (bend - u.slide.min(v.slide) * slope).max(0.0);
+    let energy = 0.5 * bend_left * bend_left / (u.variance + v.variance);
     // One of the two takes at least half of it.
-    let peak = options.transition_peak * options.transition_peak;
-    let rise = |c: &Candidate| {
-        let moved = (c.error * c.error + peak * energy / c.weight).sqrt();
-        penalty(moved, options) - penalty(c.error, options)
-    };
+    let rise = |c: &Door| penalty((c.squared + c.spread * energy).sqrt(), options) - c.penalty;
     rise(u).min(rise(v))
-}
-
-/// How far a join may slide from the middle of its overlap, px.
-#[inline]
-fn slide_reach(u: &Candidate, v: &Candidate) -> f64 {
-    0.25 * (u.length / f64::from(u.last - u.first)).min(v.length / f64::from(v.last - v.first))
 }
 
 /// The states of both candidates at each sample in the middle of their overlap.
@@ -114,14 +134,14 @@ fn by_covariance(u: &Candidate, v: &Candidate, level: Continuity, options: &FitO
         let (still, drift) = (reduced(gap), reduced([turn, bend, slope]));
         let top = still[0] * drift[0] * r0 + still[1] * drift[1] * r1 + still[2] * drift[2] * r2;
         let bottom = drift[0] * drift[0] * r0 + drift[1] * drift[1] * r1 + drift[2] * drift[2] * r2;
-        let reach = slide_reach(u, v);
+        let reach = u.slide.min(v.slide);
         let slide = if bottom > 0.0 { (-top / bottom).clamp(-reach, reach) } else { 0.0 };
         let z = (still[2] + slide * drift[2]) * r2;
         let y = (still[1] + slide * drift[1]) * r1 - l21 * z;
         let x = (still[0] + slide * drift[0]) * r0 - l10 * y - l20 * z;
         let after = |c: &Candidate, s: &[f64; 6]| {
             let energy = x * (s[0] * x + 2.0 * (s[1] * y + s[2] * z)) + y * (s[3] * y + 2.0 * s[4] * z) + z * s[5] * z;
-            (c.error * c.error + options.transition_peak * options.transition_peak * energy / c.weight).sqrt()
+            (c.error * c.error + c.spread * energy).sqrt()
         };
         let (eu, ev) = (after(u, &a.covariance), after(v, &b.covariance));
         if penalty(eu, options) + penalty(ev, options) < penalty(best.0, options) + penalty(best.1, options)
