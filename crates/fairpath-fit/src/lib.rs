@@ -30,7 +30,7 @@ mod stroke;
 mod track;
 mod walk;
 
-pub use options::{Closing, Deviation, FitOptions, Preset, Resampling, Search, Transitions};
+pub use options::{ClosedSearch, Closing, Deviation, FitOptions, Preset, Resampling, Search, Transitions};
 pub use result::{Candidate, Fit, FitError, Observer, Report, Stages, Step, Warning};
 pub use stroke::Stroke;
 

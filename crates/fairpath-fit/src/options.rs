@@ -78,6 +78,18 @@ pub enum Search {
     AStar,
 }
 
+/// How the path around a smoothly closed stroke is found.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum ClosedSearch {
+    /// The shortest cycle: bounded from below by the best way once around between any two nodes, and found by branch and bound where
+    /// that does not close.
+    #[default]
+    Exact,
+    /// As the paper does: the shortest one through a node in the middle of what was found before, three times.
+    ThreeRounds,
+}
+
 /// What stands for the deviation of a primitive from its data in costs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
@@ -204,6 +216,8 @@ pub struct FitOptions {
     pub max_join_error: f64,
     /// How the path is found again after some of its joins got dearer (section 3.5).
     pub search: Search,
+    /// How the path around a smoothly closed stroke is found (section 3.5).
+    pub closed_search: ClosedSearch,
     /// Most times that the shortest path is searched anew after its joins have been verified (section 3.5).
     #[schemars(extend("unit" = "1"))]
     pub validation_rounds: usize,
@@ -260,6 +274,7 @@ impl FitOptions {
             transition_peak: 2.0,
             max_join_error: 10.0,
             search: Search::Repair,
+            closed_search: ClosedSearch::Exact,
             validation_rounds: 3,
             refine: true,
         };
@@ -299,6 +314,7 @@ impl FitOptions {
                 shortness_cost: 2.0,
                 transitions: Transitions::Paper,
                 search: Search::AStar,
+                closed_search: ClosedSearch::ThreeRounds,
                 refine: false,
                 ..default
             },

@@ -218,6 +218,42 @@ fn a_circle_traced_three_times_stays_a_circle() {
     }
 }
 
+/// Once around an ellipse, in either direction.
+fn ellipse(radius: f64, narrow: f64, direction: f64, tremor: f64) -> Stroke {
+    let count = (TAU * radius / 4.0).ceil();
+    stroke(
+        "ellipse",
+        (0..=count as usize).map(|i| i as f64).map(|i| {
+            let (a, r) = (direction * TAU * i / count, radius + tremor * (1.7 * i).sin());
+            (200.0 + r * a.cos(), 300.0 + narrow * r * a.sin())
+        }),
+    )
+}
+
+#[test]
+fn a_full_circle_is_one_closed_arc() {
+    for (radius, direction, tremor) in [(12.0, 1.0, 0.0), (60.0, -1.0, 0.5), (400.0, 1.0, 1.0)] {
+        for preset in [Preset::Default, Preset::Accurate, Preset::LinesArcs] {
+            let fit = fitted(&ellipse(radius, 1.0, direction, tremor), &FitOptions::preset(preset));
+            let [arc] = fit.spline.segments() else { panic!("{preset:?} {radius}: {:?}", fit.spline.segments()) };
+            assert_eq!((fit.spline.is_closed(), fit.spline.joins()), (true, &[Continuity::G3][..]));
+            assert_eq!(arc.kind(), Kind::Arc);
+            assert!((arc.turning() - direction * TAU).abs() < 1e-12, "turns by {}", arc.turning());
+            assert!((1.0 / arc.kappa0.abs() - radius).abs() < 0.1 + 0.1 * tremor, "{} but {radius}", 1.0 / arc.kappa0);
+        }
+    }
+}
+
+#[test]
+fn an_ellipse_is_no_circle() {
+    for preset in [Preset::Default, Preset::LinesArcs, Preset::Clothoids] {
+        for narrow in [0.4, 0.7] {
+            let fit = fitted(&ellipse(100.0, narrow, 1.0, 0.0), &FitOptions::preset(preset));
+            assert!(fit.spline.is_closed() && fit.spline.segments().len() > 2, "{preset:?}: {:?}", fit.spline);
+        }
+    }
+}
+
 #[test]
 fn a_retraced_line_is_open_and_keeps_its_end() {
     for last in [200, 150, 110] {

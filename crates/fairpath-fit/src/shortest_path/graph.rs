@@ -10,8 +10,7 @@ use super::transition::{Door, at_least, estimate, overlap, possible};
 use crate::options::FitOptions;
 use crate::track::Track;
 use fairpath_curve::{Continuity, Kind};
-use std::cmp::{Ordering, Reverse};
-use std::collections::{BTreeSet, BinaryHeap, HashMap, HashSet};
+use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 
 /// A candidate with the logical signs of its curvature at start and end (section 3.8). A line makes two.
 #[derive(Clone, Copy, Debug)]
@@ -22,6 +21,13 @@ pub(crate) struct Node {
     pub(crate) sign: [i8; 2],
     pub(crate) cost: f64,
     kind: Kind,
+}
+
+impl Node {
+    /// Sample intervals that it covers.
+    pub(super) fn span(&self) -> usize {
+        (self.last - self.first) as usize
+    }
 }
 
 /// A transition between nodes.
@@ -40,7 +46,7 @@ pub(crate) struct Graph<'a> {
     heads: Vec<Door>,
     tails: Vec<Door>,
     corner: &'a [bool],
-    options: &'a FitOptions,
+    pub(super) options: &'a FitOptions,
     /// Nodes that start at each sample.
     starts: Vec<std::ops::Range<usize>>,
     /// Costs learnt by verification; infinite for forbidden edges.
@@ -84,12 +90,17 @@ impl<'a> Graph<'a> {
         }
     }
 
+    /// Sample intervals in the stroke, or in one turn of a ring.
+    pub(crate) fn turn(&self) -> usize {
+        self.starts.len()
+    }
+
     pub(crate) fn starting_at(&self, sample: usize) -> std::ops::Range<usize> {
         self.starts[sample].clone()
     }
 
     /// The continuities that may follow a node that ends at `sample`, with their base cost.
-    fn levels(&self, sample: usize) -> impl Iterator<Item = (Continuity, f64)> + use<> {
+    pub(super) fn levels(&self, sample: usize) -> impl Iterator<Item = (Continuity, f64)> + use<> {
         let o = self.options;
         let all = if self.corner[sample] {
             [Some((Continuity::G0, 0.0)), None, None]
@@ -103,7 +114,7 @@ impl<'a> Graph<'a> {
         all.into_iter().flatten()
     }
 
-    fn edge_cost(&mut self, edge: Edge, base: f64) -> f64 {
+    pub(super) fn edge_cost(&mut self, edge: Edge, base: f64) -> f64 {
         if self.touched[edge.from as usize]
             && let Some(&cost) = self.learnt.get(&edge)
         {
@@ -204,61 +215,84 @@ enum Onward {
     To(u32, Continuity),
 }
 
-/// Where a search ends.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// Where a search begins and ends.
+#[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Goal {
-    /// At the last sample of the track.
+    /// From the first sample of the track to the last.
     End,
+    /// Once around a ring, from one of the gates to one of them.
+    Around(Gates),
+}
+
+impl Goal {
     /// Once around, at the node where it began.
-    Around(u32),
+    pub(crate) fn around(graph: &Graph, node: u32) -> Self {
+        Self::Around(Gates { cut: graph.nodes[node as usize].first as usize, prices: vec![(node, 0.0)] })
+    }
+}
+
+/// Nodes after which a cycle crosses from `cut` to a later sample: the last to start no later than there. Every cycle has exactly
+/// one, so that those in which it is one of these are the cycles that pass a gate.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Gates {
+    pub(crate) cut: usize,
+    /// What arriving at each gate counts for. Setting out from there earns the same, so that it is nothing to a cycle.
+    pub(crate) prices: Vec<(u32, f64)>,
+}
+
+/// The way once around from a gate.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Departure {
+    pub(super) price: f64,
+    cost: f64,
+    onward: Onward,
 }
 
 /// Distances of all nodes to the target.
 pub(crate) struct Distances {
-    /// Cost of the node and of everything after it.
-    to_target: Vec<f64>,
+    /// Cost of the node and of everything after it, or the price if it is a gate and that is less.
+    pub(super) to_target: Vec<f64>,
     onward: Vec<Onward>,
     /// Nodes by start, nearest to the target first.
-    order: Vec<Vec<u32>>,
+    pub(super) order: Vec<Vec<u32>>,
     /// Nodes whose way on leads to a node.
     leading_to: Vec<Vec<u32>>,
     /// Nodes whose distances repairs have left too short.
     stale: Vec<u32>,
-    goal: Goal,
+    /// The gates; none if the search ends at the last sample.
+    pub(super) gates: BTreeMap<u32, Departure>,
     /// The sample from which positions are counted, and the one at which the search ends.
-    origin: usize,
-    target: usize,
-    turn: usize,
+    pub(super) origin: usize,
+    pub(super) target: usize,
+    pub(super) turn: usize,
 }
 
 impl Distances {
     /// Computes all distances to the goal, from the last position back.
-    pub(crate) fn new(graph: &mut Graph, goal: Goal) -> Self {
+    pub(crate) fn new(graph: &mut Graph, goal: &Goal) -> Self {
         let n = graph.nodes.len();
         let turn = graph.starts.len();
-        let origin = match goal {
-            Goal::End => 0,
-            Goal::Around(node) => graph.nodes[node as usize].first as usize,
+        let (origin, prices) = match goal {
+            Goal::End => (0, &[][..]),
+            Goal::Around(gates) => (gates.cut + 1, &gates.prices[..]),
         };
+        let unknown = |price| Departure { price, cost: f64::INFINITY, onward: Onward::Nowhere };
         let mut d = Self {
             to_target: vec![f64::INFINITY; n],
             onward: vec![Onward::Nowhere; n],
             order: vec![Vec::new(); turn],
             leading_to: vec![Vec::new(); n],
             stale: Vec::new(),
-            goal,
+            gates: prices.iter().map(|p| (p.0, unknown(p.1))).collect(),
             origin,
             target: origin + turn,
             turn,
         };
         for position in (origin..origin + turn).rev() {
             let sample = position % turn;
-            let nodes = match goal {
-                Goal::Around(node) if position == origin => node as usize..node as usize + 1,
-                _ => graph.starting_at(sample),
-            };
+            let nodes = graph.starting_at(sample);
             for node in nodes.clone() {
-                let (cost, onward) = d.best_onward(graph, node as u32);
+                let (cost, onward) = d.best_inside(graph, node as u32);
                 d.to_target[node] = cost;
                 d.set_onward(node as u32, onward);
             }
@@ -267,6 +301,9 @@ impl Distances {
             list.sort_by(|&a, &b| d.to_target[a as usize].total_cmp(&d.to_target[b as usize]).then(a.cmp(&b)));
             d.order[sample] = list;
         }
+        for &(gate, _) in prices {
+            d.set_out(graph, gate);
+        }
         d
     }
 
@@ -274,6 +311,30 @@ impl Distances {
     fn position(&self, node: &Node) -> usize {
         let first = node.first as usize;
         if first < self.origin { first + self.turn } else { first }
+    }
+
+    /// Where a node ends, counted on from the origin.
+    pub(super) fn end(&self, node: &Node) -> usize {
+        self.position(node) + node.span()
+    }
+
+    /// The best way on from a node between origin and target. At a gate it may end.
+    fn best_inside(&self, graph: &mut Graph, node: u32) -> (f64, Onward) {
+        let end = self.end(&graph.nodes[node as usize]);
+        let (cost, onward) = self.best_onward(graph, node, end);
+        match self.gates.get(&node) {
+            Some(gate) if gate.price <= cost => (gate.price, Onward::Target),
+            _ => (cost, onward),
+        }
+    }
+
+    /// Computes the way once around from a gate, which lies a turn before where it is arrived at.
+    fn set_out(&mut self, graph: &mut Graph, gate: u32) {
+        let end = self.end(&graph.nodes[gate as usize]) - self.turn;
+        let (cost, onward) = self.best_onward(graph, gate, end);
+        if let Some(departure) = self.gates.get_mut(&gate) {
+            (departure.cost, departure.onward) = (cost, onward);
+        }
     }
 
     fn set_onward(&mut self, node: u32, onward: Onward) {
@@ -286,27 +347,19 @@ impl Distances {
         self.onward[node as usize] = onward;
     }
 
-    fn best_onward(&self, graph: &mut Graph, node: u32) -> (f64, Onward) {
+    fn best_onward(&self, graph: &mut Graph, node: u32, end: usize) -> (f64, Onward) {
         let this = graph.nodes[node as usize];
-        let start = self.position(&this);
-        let end = start + (this.last - this.first) as usize;
-        if self.goal == Goal::End && end == self.target {
+        if self.gates.is_empty() && end == self.target {
             return (this.cost, Onward::Target);
         }
         let (mut best, mut onward) = (f64::INFINITY, Onward::Nowhere);
         for (level, base) in graph.levels(end) {
             let overlap = overlap(level, graph.options);
-            if end < start + overlap + 1 {
+            if this.span() <= overlap {
                 continue;
             }
             let next_start = end - overlap;
-            if next_start >= self.target {
-                if let (Goal::Around(home), true) = (self.goal, next_start == self.target) {
-                    let cost = graph.edge_cost(Edge { from: node, to: home, level }, base);
-                    if cost < best {
-                        (best, onward) = (cost, Onward::To(home, level));
-                    }
-                }
+            if next_start < self.origin || next_start >= self.target {
                 continue;
             }
             for &next in &self.order[next_start % self.turn] {
@@ -315,8 +368,7 @@ impl Distances {
                     break;
                 }
                 // Those that end no later than this one would not move on.
-                let span = graph.nodes[next as usize].last - graph.nodes[next as usize].first;
-                if next_start + span as usize <= end {
+                if next_start + graph.nodes[next as usize].span() <= end {
                     continue;
                 }
                 if base + ahead + graph.bound(node, next, level) >= best {
@@ -336,17 +388,19 @@ impl Distances {
     /// [settled](Self::settle).
     pub(crate) fn repair(&mut self, graph: &mut Graph, from: impl IntoIterator<Item = u32>, reach: usize) {
         // Later starts first: what a node's distance depends on is then settled before it.
-        let mut open: BTreeSet<(usize, u32)> =
-            from.into_iter().map(|i| (self.position(&graph.nodes[i as usize]), i)).collect();
+        let place = |d: &Self, graph: &Graph, i: u32| (d.position(&graph.nodes[i as usize]), i);
+        let mut open: BTreeSet<(usize, u32)> = from.into_iter().map(|i| place(self, graph, i)).collect();
         let sources: Vec<usize> = open.iter().map(|o| o.0).collect();
+        let mut changed: HashSet<u32> = open.iter().map(|o| o.1).collect();
         while let Some((position, node)) = open.pop_last() {
-            let (cost, onward) = self.best_onward(graph, node);
+            let (cost, onward) = self.best_inside(graph, node);
             let before = self.to_target[node as usize];
             self.set_onward(node, onward);
             if cost == before {
                 continue;
             }
             self.to_target[node as usize] = cost;
+            changed.insert(node);
             let list = &mut self.order[position % self.turn];
             list.retain(|&i| i != node);
             if cost.is_finite() {
@@ -355,22 +409,27 @@ impl Distances {
                     list.partition_point(|&i| to_target[i as usize].total_cmp(&cost).then(i.cmp(&node)).is_lt());
                 list.insert(place, node);
             }
-            if self.goal != Goal::Around(node) {
-                // The nearest source at or after a place decides whether it is within reach.
-                let within = |place: usize| {
-                    reach == usize::MAX
-                        || sources.get(sources.partition_point(|&s| s < place)).is_some_and(|s| s - place <= reach)
-                };
-                let leading = self.leading_to[node as usize].iter();
-                for &i in leading {
-                    let place = self.position(&graph.nodes[i as usize]);
-                    if within(place) {
-                        open.insert((place, i));
-                    } else {
-                        self.stale.push(i);
-                    }
+            // The nearest source at or after a place decides whether it is within reach.
+            let within = |place: usize| {
+                reach == usize::MAX
+                    || sources.get(sources.partition_point(|&s| s < place)).is_some_and(|s| s - place <= reach)
+            };
+            for &i in &self.leading_to[node as usize] {
+                let place = place(self, graph, i);
+                if within(place.0) {
+                    open.insert(place);
+                } else {
+                    self.stale.push(i);
                 }
             }
+        }
+        // Costs only grow: a way that did not get dearer is still the best.
+        let dearer = |gate: u32, departure: &Departure| {
+            changed.contains(&gate) || matches!(departure.onward, Onward::To(next, _) if changed.contains(&next))
+        };
+        let gates: Vec<u32> = self.gates.iter().filter(|g| dearer(*g.0, g.1)).map(|g| *g.0).collect();
+        for gate in gates {
+            self.set_out(graph, gate);
         }
     }
 
@@ -381,131 +440,64 @@ impl Distances {
         self.repair(graph, stale.into_iter().chain(from), usize::MAX);
     }
 
-    /// The shortest path to the goal by A* (Hart, Nilsson and Raphael 1968), for distances that have become too short since they were
-    /// computed: costs only grow, so they are an admissible heuristic.
-    pub(crate) fn a_star(&self, graph: &mut Graph) -> Option<Path> {
-        let mut reached = Reached::new();
-        let mut open = BinaryHeap::new();
-        for &start in &self.order[self.origin] {
-            reached.insert(start, (0.0, None));
-            open.push(Reverse(Estimate { total: self.to_target[start as usize], node: start, arrived: None }));
-        }
-        let mut settled = HashSet::new();
-        while let Some(Reverse(Estimate { total, node, arrived })) = open.pop() {
-            if let Some(closing) = arrived {
-                return Some(self.traced(node, closing, total, &reached));
-            }
-            if !settled.insert(node) {
-                continue;
-            }
-            let this = graph.nodes[node as usize];
-            let before = reached[&node].0 + this.cost;
-            let start = self.position(&this);
-            let end = start + (this.last - this.first) as usize;
-            if self.goal == Goal::End && end == self.target {
-                open.push(Reverse(Estimate { total: before, node, arrived: Some(Continuity::G0) }));
-                continue;
-            }
-            for (level, base) in graph.levels(end) {
-                let overlap = overlap(level, graph.options);
-                if end < start + overlap + 1 {
-                    continue;
-                }
-                let next_start = end - overlap;
-                if let (Goal::Around(home), true) = (self.goal, next_start == self.target) {
-                    let cost = before + graph.edge_cost(Edge { from: node, to: home, level }, base);
-                    if cost.is_finite() {
-                        open.push(Reverse(Estimate { total: cost, node, arrived: Some(level) }));
-                    }
-                }
-                if next_start >= self.target {
-                    continue;
-                }
-                for &next in &self.order[next_start % self.turn] {
-                    let span = graph.nodes[next as usize].last - graph.nodes[next as usize].first;
-                    if next_start + span as usize <= end || settled.contains(&next) {
-                        continue;
-                    }
-                    let cost = before + graph.edge_cost(Edge { from: node, to: next, level }, base);
-                    if cost.is_finite() && reached.get(&next).is_none_or(|r| cost < r.0) {
-                        reached.insert(next, (cost, Some((node, level))));
-                        let total = cost + self.to_target[next as usize];
-                        open.push(Reverse(Estimate { total, node: next, arrived: None }));
-                    }
-                }
-            }
-        }
-        None
-    }
-
-    /// The path by which A* came to its last node.
-    fn traced(&self, last: u32, closing: Continuity, cost: f64, reached: &Reached) -> Path {
-        let (mut nodes, mut joins) = (vec![last], Vec::new());
-        if let Goal::Around(_) = self.goal {
-            joins.push(closing);
-        }
-        let mut node = last;
-        while let Some((before, level)) = reached[&node].1 {
-            nodes.push(before);
-            joins.push(level);
-            node = before;
-        }
-        nodes.reverse();
-        joins.reverse();
-        Path { nodes, joins, cost }
-    }
-
-    /// The shortest path to the goal.
+    /// The shortest path to the goal; around a ring it must end at the gate where it began.
     pub(crate) fn path(&self) -> Option<Path> {
-        let start = *self.order[self.origin].first()?;
-        let mut path = Path { nodes: vec![start], joins: Vec::new(), cost: self.to_target[start as usize] };
-        let mut node = start;
+        if self.gates.is_empty() {
+            let start = *self.order[self.origin].first()?;
+            return self.followed(start, self.to_target[start as usize], self.onward[start as usize]).map(|p| p.0);
+        }
+        let gate = self.cheapest_gate()?;
+        let (path, arrived) = self.lap(gate)?;
+        (arrived == gate).then_some(path)
+    }
+
+    /// The gate from which going once around costs least, prices included.
+    pub(crate) fn cheapest_gate(&self) -> Option<u32> {
+        let bound = |gate: &&u32| self.bound_through(**gate);
+        self.gates.keys().min_by(|a, b| bound(a).total_cmp(&bound(b))).copied()
+    }
+
+    /// What going once around costs at least, prices included.
+    pub(crate) fn least(&self) -> f64 {
+        self.cheapest_gate().map_or(f64::INFINITY, |gate| self.bound_through(gate))
+    }
+
+    /// What going once around from a gate costs, prices included: a bound from below of all cycles that pass it.
+    pub(crate) fn bound_through(&self, gate: u32) -> f64 {
+        self.gates.get(&gate).map_or(f64::INFINITY, |g| g.cost - g.price)
+    }
+
+    /// The gates from which there is a way around, and what it costs to go it.
+    pub(crate) fn departures(&self) -> Vec<(u32, f64)> {
+        self.gates.iter().map(|(gate, d)| (*gate, d.cost)).filter(|p| p.1.is_finite()).collect()
+    }
+
+    /// The best way once around from a gate, and the gate arrived at: a cycle, or a path that ends with another gate.
+    pub(crate) fn lap(&self, gate: u32) -> Option<(Path, u32)> {
+        let (mut path, arrived) = self.followed(gate, self.bound_through(gate), self.gates.get(&gate)?.onward)?;
+        if arrived != gate {
+            path.nodes.push(arrived);
+        }
+        Some((path, arrived))
+    }
+
+    /// The way on from a node to the goal, and the node arrived at: a gate, or the last node of the path.
+    fn followed(&self, start: u32, cost: f64, onward: Onward) -> Option<(Path, u32)> {
+        let mut path = Path { nodes: vec![start], joins: Vec::new(), cost };
+        let (mut node, mut onward) = (start, onward);
         loop {
-            match self.onward[node as usize] {
-                Onward::Target => return Some(path),
+            match onward {
+                Onward::Target => return Some((path, node)),
                 Onward::To(next, level) => {
                     path.joins.push(level);
-                    if self.goal == Goal::Around(next) {
-                        return Some(path);
+                    (node, onward) = (next, self.onward[next as usize]);
+                    if self.gates.is_empty() || onward != Onward::Target {
+                        path.nodes.push(next);
                     }
-                    path.nodes.push(next);
-                    node = next;
                 }
                 Onward::Nowhere => return None,
             }
         }
-    }
-}
-
-/// The cost of everything before a node, and the node and join before it.
-type Reached = HashMap<u32, (f64, Option<(u32, Continuity)>)>;
-
-/// A node that A* has yet to visit, by the length of the best path through it.
-#[derive(Clone, Copy, Debug)]
-struct Estimate {
-    total: f64,
-    node: u32,
-    /// The join by which the goal is reached from `node`, if this is the goal.
-    arrived: Option<Continuity>,
-}
-
-impl PartialEq for Estimate {
-    fn eq(&self, other: &Self) -> bool {
-        self.cmp(other).is_eq()
-    }
-}
-
-impl Eq for Estimate {}
-
-impl PartialOrd for Estimate {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
-    }
-}
-
-impl Ord for Estimate {
-    fn cmp(&self, other: &Self) -> Ordering {
-        self.total.total_cmp(&other.total).then(self.node.cmp(&other.node)).then(self.arrived.cmp(&other.arrived))
     }
 }
 
@@ -518,6 +510,10 @@ pub(crate) struct Path {
 }
 
 impl Path {
+    pub(crate) fn is_cycle(&self) -> bool {
+        self.joins.len() == self.nodes.len()
+    }
+
     pub(crate) fn edges(&self) -> impl Iterator<Item = Edge> + '_ {
         let n = self.nodes.len();
         self.joins.iter().enumerate().map(move |(i, &level)| Edge {

@@ -1,7 +1,10 @@
 //! Sketching clothoid splines using shortest paths (Baran, Lehtinen and Popović 2010): stroke in, spline out.
 
+mod a_star;
 mod candidates;
 mod chain;
+mod circle;
+mod cycle;
 mod graph;
 mod merge;
 mod recursion;
@@ -11,11 +14,12 @@ mod transition;
 
 use crate::clean::{Cleaned, clean};
 use crate::direction::{is_backward, turn_stages_round, turned_round};
-use crate::options::{Closing, FitOptions};
+use crate::options::{ClosedSearch, Closing, FitOptions};
 use crate::result::{self, Fit, FitError, Observer, Report, Stages, Step, Warning};
 use crate::stroke::Stroke;
 use crate::track::{Shape, Track, prepare};
 use chain::Chain;
+use circle::Circle;
 use fairpath_curve::{Continuity, Point, Segment, Spline, trig};
 use graph::{Graph, Node, Path};
 use merge::{Effort, merge};
@@ -160,17 +164,24 @@ fn attempt(
     observer.step(Step::Graph);
     let mut graph = Graph::new(&candidates, track, options);
     observer.step(Step::Search);
-    let found = search::search(&mut graph, track, options);
+    // A circle is a cycle too, of one piece.
+    let one_piece = track.shape == Shape::Ring && options.closed_search == ClosedSearch::Exact;
+    let circle = if one_piece { circle::circle(track, options) } else { None };
+    let (path, validations) = search::search(&mut graph, track, options, circle.map_or(f64::INFINITY, |c| c.cost));
     observer.step(Step::Merge);
     report.nodes = graph.nodes.len();
     report.edges = graph.computed;
-    if let Some(stages) = stages {
-        *stages = self::stages(&graph, found.as_ref().map(|f| &f.0), track, cleaned);
-    }
-    let (path, validations) = found?;
-    report.cost = path.cost;
     report.validations = validations;
-    merge_path(&graph, &path, track, options)
+    if let Some(stages) = stages {
+        *stages = self::stages(&graph, path.as_ref(), circle.as_ref(), track, cleaned);
+    }
+    if let Some(path) = path {
+        report.cost = path.cost;
+        return merge_path(&graph, &path, track, options);
+    }
+    let circle = circle?;
+    report.cost = circle.cost;
+    Some((vec![circle.arc], vec![Continuity::G3], true))
 }
 
 /// Options under which every stroke has a curve that is not far off: what was forbidden is dear instead.
@@ -257,8 +268,14 @@ fn describe(report: &mut Report, spline: &Spline, stroke: &Stroke, options: &Fit
 /// Curvature that has no sign, radians per px.
 const FLAT: f64 = 1e-9;
 
-fn stages(graph: &Graph, path: Option<&Path>, track: &Track, cleaned: &Cleaned) -> Stages {
+fn stages(graph: &Graph, path: Option<&Path>, circle: Option<&Circle>, track: &Track, cleaned: &Cleaned) -> Stages {
     let n = track.turn + usize::from(track.shape == Shape::Open);
+    let whole = circle.map(|c| result::Candidate {
+        segment: restored(&c.arc, cleaned),
+        first: 0,
+        last: track.turn,
+        error: c.largest * cleaned.scale,
+    });
     Stages {
         points: cleaned.points.iter().map(|p| cleaned.restore(*p)).collect(),
         closed: track.shape != Shape::Open,
@@ -273,8 +290,11 @@ fn stages(graph: &Graph, path: Option<&Path>, track: &Track, cleaned: &Cleaned) 
                 last: c.last as usize,
                 error: c.largest * cleaned.scale,
             })
+            .chain(whole)
             .collect(),
-        path: path
-            .map_or_else(Vec::new, |p| p.nodes.iter().map(|&i| graph.nodes[i as usize].candidate as usize).collect()),
+        path: match path {
+            Some(path) => path.nodes.iter().map(|&i| graph.nodes[i as usize].candidate as usize).collect(),
+            None => whole.map(|_| graph.candidates.len()).into_iter().collect(),
+        },
     }
 }

@@ -1,72 +1,80 @@
 //! Finding a path whose joins hold (section 3.5 of Baran et al. 2010): the shortest path is verified join by join, joins that turn out
 //! dearer than estimated are repriced, and the search is repeated until nothing changes.
 
+use super::a_star::a_star;
 use super::candidates::{Candidate, penalty};
 use super::chain::{Chain, Piece, Shortness};
+use super::cycle::shortest_cycle;
 use super::graph::{Distances, Edge, Goal, Graph, Node, Path};
 use super::merge::{Effort, merge};
 use super::transition::overlap;
-use crate::options::{FitOptions, Search};
+use crate::options::{ClosedSearch, FitOptions, Search};
 use crate::track::{Course, Shape, Track};
 use fairpath_curve::{Continuity, Kind};
 
 /// Effort of verifying one join.
 const VERIFY: Effort = Effort { rounds: 5, tolerance: 3e-2 };
 
-/// The shortest path through the graph whose joins have all been verified, and how many verifications it took.
-pub(crate) fn search(graph: &mut Graph, track: &Track, options: &FitOptions) -> Option<(Path, usize)> {
-    let mut verifications = 0;
-    if track.shape != Shape::Ring {
-        return verified(graph, Goal::End, track, options, &mut verifications).map(|p| (p, verifications));
-    }
-    let open = Distances::new(graph, Goal::End).path();
-    // Once around from the node in the middle of what was found before, three times (section 3.5).
+/// The shortest path through the graph whose joins have all been verified, if it costs less than `below`, and how many verifications
+/// it took.
+pub(crate) fn search(graph: &mut Graph, track: &Track, options: &FitOptions, below: f64) -> (Option<Path>, usize) {
+    let mut verifier = Verifier::new(track, options);
+    let path = match (track.shape, options.closed_search) {
+        (Shape::Open | Shape::Loop, _) => verified(graph, &Goal::End, &mut verifier),
+        (Shape::Ring, ClosedSearch::Exact) => shortest_cycle(graph, &mut verifier, below),
+        (Shape::Ring, ClosedSearch::ThreeRounds) => three_rounds(graph, &mut verifier),
+    };
+    (path.filter(|p| p.cost < below), verifier.verifications)
+}
+
+/// A cycle found by searching once around from the node in the middle of what was found before, three times (section 3.5).
+pub(super) fn three_rounds(graph: &mut Graph, verifier: &mut Verifier) -> Option<Path> {
+    let open = Distances::new(graph, &Goal::End).path()?;
     let mut best: Option<Path> = None;
-    let mut from = middle(graph, &open?, track);
+    let mut from = middle(graph, &open);
     for _ in 0..3 {
-        let Some(path) = verified(graph, Goal::Around(from), track, options, &mut verifications) else { break };
-        from = middle(graph, &path, track);
+        let once_around = Goal::around(graph, from);
+        let Some(path) = verified(graph, &once_around, verifier) else { break };
+        from = middle(graph, &path);
         // The path found before passes through this node too: no gain means that it was the best already.
         if best.as_ref().is_some_and(|b| path.cost >= b.cost - 1e-9) {
             break;
         }
         best = Some(path);
     }
-    best.map(|p| (p, verifications))
+    best
 }
 
 /// The node of a path that covers the place half a turn from its start.
-fn middle(graph: &Graph, path: &Path, track: &Track) -> u32 {
+fn middle(graph: &Graph, path: &Path) -> u32 {
+    let turn = graph.turn();
     let start = graph.nodes[path.nodes[0] as usize].first as usize;
-    let wanted = track.turn / 2;
+    let wanted = turn / 2;
     let at = |i: &&u32| {
         let n = &graph.nodes[**i as usize];
-        let from = (n.first as usize + track.turn - start) % track.turn;
+        let from = (n.first as usize + turn - start) % turn;
         let centre = from + (n.last - n.first) as usize / 2;
         centre.abs_diff(wanted)
     };
     *path.nodes.iter().min_by_key(at).unwrap_or(&path.nodes[0])
 }
 
-fn verified(
-    graph: &mut Graph,
-    goal: Goal,
-    track: &Track,
-    options: &FitOptions,
-    verifications: &mut usize,
-) -> Option<Path> {
+/// The shortest path to the goal whose joins have been verified, as far as `validation_rounds` allow.
+pub(super) fn verified(graph: &mut Graph, goal: &Goal, verifier: &mut Verifier) -> Option<Path> {
+    let options = verifier.options;
     let mut distances = Distances::new(graph, goal);
     let mut path = distances.path()?;
     if options.search == Search::AStar {
+        let gate = distances.gates.keys().next().copied();
         let most = options.validation_rounds * ROUNDS_NEARBY;
         for run in 1..=most {
-            if reprice(graph, &path, track, options, verifications).is_empty() {
+            if verifier.reprice(graph, &path).is_empty() {
                 break;
             }
             if run % RUNS_BETWEEN == 0 {
                 distances = Distances::new(graph, goal);
             }
-            path = distances.a_star(graph)?;
+            path = a_star(&distances, graph, gate, f64::INFINITY)?;
         }
     }
     for _ in 0..options.validation_rounds {
@@ -74,7 +82,7 @@ fn verified(
         // is done if the path still holds.
         let mut changed = false;
         for _ in 0..ROUNDS_NEARBY {
-            let dearer = reprice(graph, &path, track, options, verifications);
+            let dearer = verifier.reprice(graph, &path);
             if dearer.is_empty() {
                 break;
             }
@@ -89,8 +97,7 @@ fn verified(
         path = distances.path()?;
     }
     // What the last round left unverified is taken as estimated, but what cannot be merged at all is avoided.
-    while let Some(edge) = pinched(graph, &path) {
-        graph.forbid(edge);
+    while !verifier.avoid_pinching(graph, &path).is_empty() {
         distances = Distances::new(graph, goal);
         path = distances.path()?;
     }
@@ -101,30 +108,45 @@ fn verified(
 const RUNS_BETWEEN: usize = 4;
 
 /// Most rounds of verification between two searches of the whole.
-const ROUNDS_NEARBY: usize = 12;
+pub(super) const ROUNDS_NEARBY: usize = 12;
 
 /// Samples before a join that got dearer, within which distances are repaired at once.
-const REPAIR_REACH: usize = 15;
+pub(super) const REPAIR_REACH: usize = 15;
 
-/// Verifies the joins of a path; the nodes whose onward joins got dearer.
-fn reprice(graph: &mut Graph, path: &Path, track: &Track, options: &FitOptions, verifications: &mut usize) -> Vec<u32> {
-    let mut dearer: Vec<u32> = Vec::new();
-    if let Some(edge) = pinched(graph, path) {
-        graph.forbid(edge);
-        dearer.push(edge.from);
+/// Verifies joins, and counts how many.
+pub(super) struct Verifier<'a> {
+    track: &'a Track,
+    pub(super) options: &'a FitOptions,
+    verifications: usize,
+}
+
+impl<'a> Verifier<'a> {
+    pub(super) fn new(track: &'a Track, options: &'a FitOptions) -> Self {
+        Self { track, options, verifications: 0 }
     }
-    for edge in path.edges() {
-        // Two curves that end at a corner meet near it whatever they are: there is nothing to enforce.
-        if graph.is_verified(edge) || graph.at_corner(edge) {
-            continue;
+
+    /// Verifies the joins of a path; the nodes whose onward joins got dearer.
+    pub(super) fn reprice(&mut self, graph: &mut Graph, path: &Path) -> Vec<u32> {
+        let mut dearer = self.avoid_pinching(graph, path);
+        for edge in path.edges() {
+            // Two curves that end at a corner meet near it whatever they are: there is nothing to enforce.
+            if graph.is_verified(edge) || graph.at_corner(edge) {
+                continue;
+            }
+            self.verifications += 1;
+            let deviation = verify(graph, edge, self.track, self.options);
+            if graph.learn(edge, deviation) {
+                dearer.push(edge.from);
+            }
         }
-        *verifications += 1;
-        let deviation = verify(graph, edge, track, options);
-        if graph.learn(edge, deviation) {
-            dearer.push(edge.from);
-        }
+        dearer
     }
-    dearer
+
+    /// Forbids a join of a path that cannot be merged; the node before it.
+    pub(super) fn avoid_pinching(&self, graph: &mut Graph, path: &Path) -> Vec<u32> {
+        let edge = pinched(graph, path);
+        edge.inspect(|edge| graph.forbid(*edge)).map(|edge| edge.from).into_iter().collect()
+    }
 }
 
 /// The dearer of two G2 joins with which lines on both sides would straighten a clothoid.
@@ -132,7 +154,7 @@ fn pinched(graph: &mut Graph, path: &Path) -> Option<Edge> {
     let edges: Vec<Edge> = path.edges().collect();
     let kind = |graph: &Graph, node: u32| graph.candidates[graph.nodes[node as usize].candidate as usize].kind;
     let n = edges.len();
-    let pairs = if path.joins.len() == path.nodes.len() { n } else { n.saturating_sub(1) };
+    let pairs = if path.is_cycle() { n } else { n.saturating_sub(1) };
     for i in 0..pairs {
         let (a, b) = (edges[i], edges[(i + 1) % n]);
         if a.level == Continuity::G2
