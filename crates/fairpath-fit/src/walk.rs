@@ -178,7 +178,9 @@ impl Walker {
             let ds = self.far_step(point);
             self.go_to(self.s + ds);
         }
-        Foot { s: self.s, distance: self.offset(point) }
+        // Without a foot, how far the point is from here is no less than its distance.
+        let v = point - self.position;
+        Foot { s: self.s, distance: v.hypot2().sqrt().copysign(self.tangent.cross(v)) }
     }
 
     /// Moves to `s` if the foot of a point is near that place.
