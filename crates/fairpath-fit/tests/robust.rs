@@ -331,8 +331,8 @@ macro_rules! setters {
 
 fn setters() -> Vec<Setter> {
     setters!(
-        numbers: pixel_size, closing_gap, corner_angle, corner_score, corner_share, corner_noise, corner_window,
-            corner_distance, sampling_falloff, points_per_circle, min_sampling, max_sampling, curvature_window, max_error,
+        numbers: pixel_size, closing_gap, corner_angle, corner_score, corner_share, corner_noise, corner_radius,
+            corner_window, corner_distance, sampling_falloff, points_per_circle, min_sampling, max_sampling, curvature_window, max_error,
             end_factor, sample_share, error_cost, free_error, shortness_cost, short_length, free_share, inflection_cost,
             transition_peak, max_join_error;
         costs: line_cost, arc_cost, clothoid_cost, g0_cost, g1_cost, g2_cost;
