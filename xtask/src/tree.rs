@@ -32,20 +32,20 @@ pub(crate) fn cache() -> PathBuf {
 
 /// A folder for what the chores write, inside cargo's own target folder.
 pub(crate) fn scratch(name: &str) -> Result<PathBuf> {
-    let folder = profile_folder()?.join("../xtask").join(name);
+    let folder = target_folder()?.join("xtask").join(name);
     std::fs::create_dir_all(&folder).with_context(|| format!("cannot make {}", folder.display()))?;
     folder.canonicalize().with_context(|| format!("cannot find {}", folder.display()))
 }
 
 /// The release build of the command line, which must have been built before.
 pub(crate) fn fairpath() -> Result<PathBuf> {
-    Ok(profile_folder()?.join(format!("fairpath{}", env::consts::EXE_SUFFIX)))
+    Ok(target_folder()?.join("release").join(format!("fairpath{}", env::consts::EXE_SUFFIX)))
 }
 
-/// The folder that this program runs from: `target/release`, wherever cargo was told to put it.
-fn profile_folder() -> Result<PathBuf> {
+/// The folder of all builds, wherever cargo was told to put it: this program lies in the folder of its profile.
+fn target_folder() -> Result<PathBuf> {
     let exe = env::current_exe().context("cannot tell where this program is")?;
-    Ok(exe.parent().context("this program lies in no folder")?.to_path_buf())
+    Ok(exe.ancestors().nth(2).context("this program lies in no folder of a profile")?.to_path_buf())
 }
 
 /// Whether this is the build server, where nothing may be skipped.

@@ -187,7 +187,7 @@ pub(crate) fn walk_near(primitive: &Primitive, data: &[Datum], end_factor: f64, 
 }
 
 /// How far before the first and beyond the last foot another may be, px.
-const ASIDE: f64 = 2.0;
+const ASIDE: f64 = 6.0;
 
 /// The chord of a run of points, as a primitive.
 pub(crate) fn chord(data: &[Datum]) -> Primitive {
