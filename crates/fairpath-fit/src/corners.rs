@@ -6,8 +6,8 @@
 
 use crate::options::FitOptions;
 use crate::polyline::Polyline;
-use crate::primitive_fit::{Walked, chord, circle_through, refine, walk_line};
-use crate::walk::{Datum, Walker};
+use crate::primitive_fit::{Walked, chord, circle_through, refine, walk_arc, walk_line};
+use crate::walk::{Datum, Primitive, Walker};
 use fairpath_curve::{Vec2, trig};
 
 /// Distance of the evenly spaced points on which corners are looked for, px.
@@ -42,9 +42,12 @@ pub(crate) fn corners(line: &Polyline, closed: bool, grain: f64, options: &FitOp
     let n = if closed { count } else { count + 1 };
     let noise = (fineness * options.corner_noise).max(GRAIN_NOISE * grain);
     let mut found: Vec<Sighting> = Vec::new();
-    let mut run: Vec<Datum> = Vec::new();
-    let narrowest = (fineness * options.corner_windows()[3]).max(GRAIN_WINDOW * grain);
-    let narrow = (round(narrowest / spacing) as isize).max(MIN_SIDE as isize);
+    // A neighbourhood of a few steps of a staircase shows nothing but steps.
+    let reach = |window: f64| round((fineness * window).max(GRAIN_WINDOW * grain) / spacing) as usize;
+    let windows = options.corner_windows().map(reach);
+    let narrow = windows[3].max(MIN_SIDE) as isize;
+    let (sin_least, cos_least) = trig::sin_cos(NARROW_SHARE * options.corner_angle.to_radians());
+    let course = Surroundings::new(&points[..n], if closed { windows[0].min(n) } else { 0 });
     for i in 0..n {
         // A corner turns within a few pixels what it turns at all.
         let index = |j: isize| {
@@ -52,19 +55,17 @@ pub(crate) fn corners(line: &Polyline, closed: bool, grain: f64, options: &FitOp
         };
         let (a, p, b) = (points[index(i as isize - narrow)], points[i], points[index(i as isize + narrow)]);
         let (into, out) = (p - a, b - p);
-        if turn_between(into, out) < NARROW_SHARE * options.corner_angle.to_radians() {
+        // The turn is less than that angle.
+        if into.cross(out).abs() * cos_least <= into.dot(out) * sin_least {
             continue;
         }
-        for window in options.corner_windows() {
-            // A neighbourhood of a few steps of a staircase shows nothing but steps.
-            let k = round((fineness * window).max(GRAIN_WINDOW * grain) / spacing) as usize;
+        for k in windows {
             let (left, right) = if closed { (k, k) } else { (k.min(i), k.min(n - 1 - i)) };
             // A side cut short by the stroke's end tells about as much as a smaller window does.
             if k < MIN_SIDE || 2 * left.min(right) < k.max(2 * MIN_SIDE) || (closed && 2 * k >= n) {
                 continue;
             }
-            let at = |j: isize| points[(i as isize + j).rem_euclid(n as isize) as usize];
-            if let Some(strength) = strength(&at, left as isize, right as isize, noise, options, &mut run) {
+            if let Some(strength) = strength(&course.around(i, left, right), noise, options) {
                 found.push(Sighting { strength, place: i, reach: k });
             }
         }
@@ -163,45 +164,123 @@ fn round(v: f64) -> f64 {
     (v + 0.5).floor()
 }
 
+/// The evenly spaced points both ways round, so that every neighbourhood is a slice of them.
+struct Surroundings {
+    forth: Vec<Datum>,
+    back: Vec<Datum>,
+    /// Points of a closed stroke that are repeated at each end.
+    repeated: usize,
+}
+
+/// The neighbourhood of a place, which belongs to neither side.
+struct Neighbourhood<'a> {
+    whole: &'a [Datum],
+    /// Both sides, walked away from the place.
+    back: &'a [Datum],
+    forth: &'a [Datum],
+    place: Vec2,
+}
+
+impl Surroundings {
+    fn new(points: &[Vec2], repeated: usize) -> Self {
+        let n = points.len();
+        let around = points[n - repeated..].iter().chain(points).chain(&points[..repeated]);
+        let datum = |(point, i): (&Vec2, u32)| Datum { point: *point, s: f64::from(i), weight: 1.0 };
+        Self {
+            forth: around.clone().zip(0..).map(datum).collect(),
+            back: around.rev().zip(0..).map(datum).collect(),
+            repeated,
+        }
+    }
+
+    fn around(&self, i: usize, left: usize, right: usize) -> Neighbourhood<'_> {
+        let at = i + self.repeated;
+        let mirrored = self.back.len() - 1 - at;
+        Neighbourhood {
+            whole: &self.forth[at - left..=at + right],
+            back: &self.back[mirrored + 1..=mirrored + left],
+            forth: &self.forth[at + 1..=at + right],
+            place: self.forth[at].point,
+        }
+    }
+}
+
 /// How strong a corner is: the angle at which the two arcs meet over the distance that they leave; nothing where it is none.
 ///
 /// It is one if the two arcs meet at a sufficient angle, if that angle makes up most of the neighbourhood's turning (a tight
 /// bend turns all along), and if they leave much less distance than a single arc.
-fn strength(
-    at: &impl Fn(isize) -> Vec2,
-    left: isize,
-    right: isize,
-    noise: f64,
-    options: &FitOptions,
-    run: &mut Vec<Datum>,
-) -> Option<f64> {
-    let (a, p, b) = (at(-left), at(0), at(right));
-    let (into, out) = (p - a, b - p);
-    let turn = turn_between(into, out);
+fn strength(near: &Neighbourhood, noise: f64, options: &FitOptions) -> Option<f64> {
+    let steps = (near.whole.len() - 1) as f64;
+    let (a, p, b) = (near.whole[0].point, near.place, near.whole[near.whole.len() - 1].point);
     let floor = noise * noise;
-    let mut side = |range: &mut dyn Iterator<Item = isize>| {
-        run.clear();
-        run.extend(range.zip(0..).map(|(j, s)| Datum { point: at(j), s: f64::from(s), weight: 1.0 }));
-        line_or_arc(run, floor)
-    };
-    let back = side(&mut (1..=left).map(|j| -j));
-    let forth = side(&mut (1..=right));
+    // No arc follows a stroke that turns back on itself: it would have to be walked back and forth.
+    let turns_back = (b - a).hypot2().sqrt() / steps < 0.1;
+    // Even if the two arcs left nothing, a single one that leaves no more than this would do.
+    if !turns_back && one_leaves_less(near.whole, options.corner_score * floor) {
+        return None;
+    }
+    let back = line_or_arc(near.back, floor);
+    let forth = line_or_arc(near.forth, floor);
     // Both arcs were walked away from the corner; the arriving direction is opposite to that of the walk.
     let jump = trig::wrap_angle(forth.primitive.heading - back.primitive.heading - std::f64::consts::PI).abs();
-    if jump < options.corner_angle.to_radians() || jump < options.corner_share * turn {
+    if jump < options.corner_angle.to_radians() || jump < options.corner_share * turn_between(p - a, b - p) {
         return None;
     }
     let sides = (back.normal.energy + forth.normal.energy) / (back.normal.weight + forth.normal.weight);
-    let whole = side(&mut (-left..=right));
-    // No arc follows a stroke that turns back on itself: it would have to be walked back and forth.
-    let points_apart = (b - a).hypot2().sqrt() / (left + right) as f64;
-    let one = if points_apart < 0.1 && whole.length < 0.5 * (left + right) as f64 {
-        f64::MAX
-    } else {
-        whole.normal.energy / whole.normal.weight
-    };
+    let whole = line_or_arc(near.whole, floor);
+    let one =
+        if turns_back && whole.length < 0.5 * steps { f64::MAX } else { whole.normal.energy / whole.normal.weight };
     let remaining = sides + floor;
     (one - sides >= options.corner_score * remaining).then(|| jump / remaining)
+}
+
+/// Whether some line or arc leaves a mean square distance below `limit`, px²: the best one leaves no more.
+fn one_leaves_less(run: &[Datum], limit: f64) -> bool {
+    let limit = limit * run.len() as f64;
+    // A hairpin lies along a line too, but does not follow it.
+    let apart = (run[run.len() - 1].point - run[0].point).hypot2();
+    let path: f64 = run.windows(2).map(|d| (d[1].point - d[0].point).hypot2()).sum::<f64>() * (run.len() - 1) as f64;
+    if apart > STRAIGHT * path && line_energy(run) < limit {
+        return true;
+    }
+    let arc = circle_through(run);
+    if arc_energy(&arc, run) < limit {
+        return true;
+    }
+    let fit = walk_arc(&arc, run, 1.0);
+    fit.normal.step(3).is_some_and(|step| arc_energy(&fit.primitive.moved(&step), run) < limit)
+}
+
+/// Least square of a run's chord, as a share of its length's, at which a line can follow the run.
+const STRAIGHT: f64 = 0.5;
+
+/// Sum of the squared distances to the line nearest to all points, px².
+fn line_energy(run: &[Datum]) -> f64 {
+    let n = run.len() as f64;
+    let origin = run[0].point;
+    let (mut sum, mut xx, mut xy, mut yy) = (Vec2::ZERO, 0.0, 0.0, 0.0);
+    for datum in run {
+        let v = datum.point - origin;
+        sum += v;
+        xx += v.x * v.x;
+        xy += v.x * v.y;
+        yy += v.y * v.y;
+    }
+    let (xx, xy, yy) = (xx - sum.x * sum.x / n, xy - sum.x * sum.y / n, yy - sum.y * sum.y / n);
+    0.5 * (xx + yy) - (0.25 * (xx - yy) * (xx - yy) + xy * xy).sqrt()
+}
+
+/// Sum of the squared distances to the circle of which an arc is part, px².
+fn arc_energy(arc: &Primitive, run: &[Datum]) -> f64 {
+    let (tangent, kappa) = (trig::unit(arc.heading), arc.kappa);
+    let square = |datum: &Datum| {
+        let v = datum.point - arc.start;
+        let (q, y) = (v.hypot2(), tangent.cross(v));
+        // The radius less the distance from the centre, in a form that holds for straight arcs as well.
+        let d = (2.0 * y - kappa * q) / (1.0 + (1.0 - kappa * (2.0 * y - kappa * q)).max(0.0).sqrt());
+        d * d
+    };
+    run.iter().map(square).sum()
 }
 
 /// The arc that describes a run best, or a line where that does to within the tremor.

@@ -2,7 +2,7 @@
 
 /// Cholesky factor of the leading `n × n` block of a symmetric matrix, in place in the lower triangle; false if a pivot is not
 /// above `floor` times its diagonal entry. The diagonal has the reciprocals of the factor's, which is what solving needs.
-#[inline]
+#[inline(always)]
 pub(crate) fn cholesky<const N: usize>(a: &mut [[f64; N]; N], n: usize, floor: f64) -> bool {
     for j in 0..n {
         let mut d = a[j][j];
@@ -29,7 +29,7 @@ pub(crate) fn cholesky<const N: usize>(a: &mut [[f64; N]; N], n: usize, floor: f
 
 /// Solves with the lower triangle of a factor from [`cholesky`], in place: the inner product of two such solutions is that of the
 /// inverse matrix.
-#[inline]
+#[inline(always)]
 pub(crate) fn solve_lower<const N: usize>(l: &[[f64; N]; N], n: usize, b: &mut [f64; N]) {
     for i in 0..n {
         let mut v = b[i];
@@ -41,14 +41,14 @@ pub(crate) fn solve_lower<const N: usize>(l: &[[f64; N]; N], n: usize, b: &mut [
 }
 
 /// Solves with a factor from [`cholesky`], in place.
-#[inline]
+#[inline(always)]
 pub(crate) fn solve<const N: usize>(l: &[[f64; N]; N], n: usize, b: &mut [f64; N]) {
     solve_lower(l, n, b);
     solve_upper(l, n, b);
 }
 
 /// What remains to be solved after [`solve_lower`], in place.
-#[inline]
+#[inline(always)]
 pub(crate) fn solve_upper<const N: usize>(l: &[[f64; N]; N], n: usize, b: &mut [f64; N]) {
     for i in (0..n).rev() {
         let mut v = b[i];

@@ -23,10 +23,10 @@ impl Normal {
     pub(crate) const ZERO: Self =
         Self { hessian: [[0.0; 4]; 4], gradient: [0.0; 4], energy: 0.0, weight: 0.0, max: 0.0 };
 
-    /// Adds a point with signed distance `d`, weight `w` and derivatives `row`.
+    /// Adds a point with signed distance `d`, weight `w` and derivatives `row` by the first so many parameters.
     #[inline]
-    pub(crate) fn add(&mut self, row: &[f64; 4], d: f64, w: f64) {
-        for i in 0..4 {
+    pub(crate) fn add<const N: usize>(&mut self, row: &[f64; N], d: f64, w: f64) {
+        for i in 0..N {
             let v = w * row[i];
             for j in 0..=i {
                 self.hessian[i][j] += v * row[j];
@@ -41,16 +41,23 @@ impl Normal {
     /// The Gauss–Newton step of the first `n` parameters (2 line, 3 arc, 4 clothoid), the others held; nothing if the points
     /// do not determine it.
     pub(crate) fn step(&self, n: usize) -> Option<[f64; 4]> {
-        let mut l = self.hessian;
-        if !cholesky(&mut l, n, 1e-12) {
+        // With the number of unknowns known, the compiler unrolls the loops.
+        match n {
+            2 => self.step_of::<2>(),
+            3 => self.step_of::<3>(),
+            _ => self.step_of::<4>(),
+        }
+    }
+
+    fn step_of<const N: usize>(&self) -> Option<[f64; 4]> {
+        let mut l: [[f64; N]; N] = std::array::from_fn(|i| std::array::from_fn(|j| self.hessian[i][j]));
+        if !cholesky(&mut l, N, 1e-12) {
             return None;
         }
-        let mut b = self.gradient;
-        solve(&l, n, &mut b);
-        for v in &mut b[n..] {
-            *v = 0.0;
-        }
-        b.iter().all(|v| v.is_finite()).then_some(b)
+        let mut b: [f64; N] = std::array::from_fn(|i| self.gradient[i]);
+        solve(&l, N, &mut b);
+        let step = std::array::from_fn(|i| if i < N { b[i] } else { 0.0 });
+        step.iter().all(|v| v.is_finite()).then_some(step)
     }
 }
 
@@ -125,7 +132,7 @@ pub(crate) fn walk_arc(primitive: &Primitive, data: &[Datum], end_factor: f64) -
     let (e0, _) = spoke(data[0].point);
     let start = centre + e0 * radius.abs();
     let t0 = along(e0);
-    let heading = primitive.heading + trig::angle_of(Vec2::new(tangent.dot(t0), tangent.cross(t0)));
+    let heading = primitive.heading + angle_between(tangent, t0);
     let mut normal = Normal::ZERO;
     let mut e = e0;
     for (i, datum) in data.iter().enumerate() {
@@ -136,13 +143,25 @@ pub(crate) fn walk_arc(primitive: &Primitive, data: &[Datum], end_factor: f64) -
         let chord = centre + e * radius.abs() - start;
         let t = along(e);
         // Half the square of the chord is R² (1 − cos φ), by which the curve moves across itself where curvature changes.
-        normal.add(&[t.dot(t0), t.dot(chord), 0.5 * chord.hypot2(), 0.0], d, w);
+        normal.add(&[t.dot(t0), t.dot(chord), 0.5 * chord.hypot2()], d, w);
     }
-    let turned = trig::angle_of(Vec2::new(e0.dot(e), e0.cross(e)));
+    let turned = angle_between(e0, e);
     // Whole turns are told by the length of the stroke.
     let turns = ((extent * kappa - turned) / std::f64::consts::TAU + 0.5).floor();
     let length = (turned + turns * std::f64::consts::TAU) * radius;
     Walked { primitive: Primitive { start, heading, kappa, sharpness: 0.0 }, length, normal }
+}
+
+/// The angle from one unit vector to another in radians, a small one by the series of the arc tangent: error below 1e-16.
+#[inline]
+fn angle_between(a: Vec2, b: Vec2) -> f64 {
+    let (along, across) = (a.dot(b), a.cross(b));
+    let t = across / along;
+    if !(along > 0.0 && t.abs() < 0.05) {
+        return trig::angle_of(Vec2::new(along, across));
+    }
+    let x = t * t;
+    t - t * x * (1.0 / 3.0 - x * (1.0 / 5.0 - x * (1.0 / 7.0 - x * (1.0 / 9.0 - x * (1.0 / 11.0)))))
 }
 
 /// An arc that turns less than this is walked along: its centre is too far away.
@@ -197,7 +216,11 @@ pub(crate) fn chord(data: &[Datum]) -> Primitive {
 
 /// The circle through the first, the middle and the last point, as a primitive from the first.
 pub(crate) fn circle_through(data: &[Datum]) -> Primitive {
-    let (a, m, b) = (data[0].point, data[data.len() / 2].point, data[data.len() - 1].point);
+    circle_by(data[0].point, data[data.len() / 2].point, data[data.len() - 1].point)
+}
+
+/// The circle through three points, as a primitive from the first.
+pub(crate) fn circle_by(a: Vec2, m: Vec2, b: Vec2) -> Primitive {
     let (u, v) = (m - a, b - a);
     let doubled_area = u.cross(v);
     let product = (u.hypot2() * v.hypot2() * (b - m).hypot2()).sqrt();

@@ -258,6 +258,18 @@ impl Walker {
         ]
     }
 
+    /// As [`Walker::row`], with the start's x and y in place of its offset.
+    #[inline]
+    pub(crate) fn natural_row(&self) -> [f64; 5] {
+        [
+            -self.tangent.y,
+            self.tangent.x,
+            self.tangent.dot(self.position - self.primitive.start),
+            self.tangent.dot(self.first),
+            self.tangent.dot(self.second),
+        ]
+    }
+
     /// Derivatives of the position by heading, curvature at the start and sharpness.
     #[inline]
     pub(crate) fn jacobian(&self) -> [Vec2; 3] {

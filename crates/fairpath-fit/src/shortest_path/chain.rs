@@ -126,6 +126,30 @@ impl PieceNormal {
         deviation(self.energy, self.weight, self.error, options)
     }
 
+    /// Adds normal equations by the natural parameters of a piece.
+    fn take(&mut self, natural: &mut Natural, q: &[f64; Q]) {
+        let Natural { hessian: h, gradient: g } = std::mem::replace(natural, Natural::ZERO);
+        // Sharpness is (κ₁ − κ₀) / length.
+        let per_length = 1.0 / q[LENGTH];
+        let by_sharpness = [-per_length, per_length, -(q[KAPPA1] - q[KAPPA0]) * per_length * per_length];
+        let lower = |i: usize, j: usize| h[i.max(j)][i.min(j)];
+        for i in 0..Q {
+            // A parameter is a natural one, if it is one at all, and a share of sharpness.
+            let share = if i < KAPPA0 { 0.0 } else { by_sharpness[i - KAPPA0] };
+            let row: [f64; Natural::COUNT] = std::array::from_fn(|j| {
+                let own = if i <= KAPPA0 { lower(i, j) } else { 0.0 };
+                own + share * lower(Natural::SHARPNESS, j)
+            });
+            for j in 0..=i {
+                let own = if j <= KAPPA0 { row[j] } else { 0.0 };
+                let share = if j < KAPPA0 { 0.0 } else { by_sharpness[j - KAPPA0] };
+                self.hessian[i][j] += own + share * row[Natural::SHARPNESS];
+            }
+            self.gradient[i] += if i <= KAPPA0 { g[i] } else { 0.0 } + share * g[Natural::SHARPNESS];
+        }
+    }
+
+    #[inline]
     fn reached(&mut self, datum: usize, d: f64, w: f64) {
         self.error = self.error.max(d);
         self.energy += w * d * d;
@@ -136,6 +160,30 @@ impl PieceNormal {
     #[inline]
     fn add(&mut self, row: &[f64; Q], d: f64, w: f64) {
         for i in 0..Q {
+            let v = w * row[i];
+            for j in 0..=i {
+                self.hessian[i][j] += v * row[j];
+            }
+            self.gradient[i] += v * d;
+        }
+    }
+}
+
+/// Normal equations of one piece by x, y, heading, curvature at the start and sharpness, with which derivatives are simplest.
+struct Natural {
+    /// Lower triangle.
+    hessian: [[f64; Self::COUNT]; Self::COUNT],
+    gradient: [f64; Self::COUNT],
+}
+
+impl Natural {
+    const COUNT: usize = 5;
+    const SHARPNESS: usize = 4;
+    const ZERO: Self = Self { hessian: [[0.0; Self::COUNT]; Self::COUNT], gradient: [0.0; Self::COUNT] };
+
+    #[inline]
+    fn add(&mut self, row: &[f64; Self::COUNT], d: f64, w: f64) {
+        for i in 0..Self::COUNT {
             let v = w * row[i];
             for j in 0..=i {
                 self.hessian[i][j] += v * row[j];
@@ -227,6 +275,7 @@ impl Chain<'_> {
         let goes_on = self.pins.map(|pin| ring || pin.is_some());
         let (open_start, open_end) = (!(goes_on[0] && first == 0), !(goes_on[1] && last + 1 == self.data.len()));
         let mut walker = Walker::new(&primitive(&self.pieces[k]));
+        let mut natural = Natural::ZERO;
         for i in data {
             let datum = self.data[i];
             if i == first && open_start {
@@ -240,6 +289,7 @@ impl Chain<'_> {
             if i == last && open_end {
                 // Pieces that no datum reached still lie between here and the end.
                 if k + 1 < pieces.end {
+                    normals[k].take(&mut natural, &self.pieces[k].q);
                     k = pieces.end - 1;
                     walker = Walker::new(&primitive(&self.pieces[k]));
                 }
@@ -260,6 +310,7 @@ impl Chain<'_> {
             while k + 1 < pieces.end && foot.s > self.pieces[k].q[LENGTH] {
                 let beyond = foot.s - self.pieces[k].q[LENGTH];
                 before += self.pieces[k].q[LENGTH];
+                normals[k].take(&mut natural, &self.pieces[k].q);
                 k += 1;
                 walker = Walker::new(&primitive(&self.pieces[k]));
                 foot = walker.project_from(beyond, datum.point);
@@ -269,7 +320,7 @@ impl Chain<'_> {
             let slack = if k > pieces.start { BACK } else { 0.0 };
             let beyond = (foot.s < -slack && (k > pieces.start || open_start))
                 || (foot.s > q[LENGTH] && k + 1 == pieces.end && open_end);
-            let (d, row) = if beyond {
+            let d = if beyond {
                 // Beyond the end the nearest point is the end itself.
                 let at_end = foot.s > 0.0;
                 walker.go_to(if at_end { q[LENGTH] } else { 0.0 });
@@ -280,14 +331,16 @@ impl Chain<'_> {
                 if at_end {
                     row[LENGTH] += n.dot(walker.tangent);
                 }
-                (d, row)
+                normals[k].add(&row, d, datum.weight);
+                d
             } else {
-                (foot.distance, row(&walker, Vec2::new(-walker.tangent.y, walker.tangent.x), q))
+                natural.add(&walker.natural_row(), foot.distance, datum.weight);
+                foot.distance
             };
-            normals[k].add(&row, d, datum.weight);
             normals[k].reached(i, d.abs(), datum.weight);
             *energy += datum.weight * d * d;
         }
+        normals[k].take(&mut natural, &self.pieces[k].q);
     }
 }
 

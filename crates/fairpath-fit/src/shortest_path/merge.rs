@@ -51,7 +51,8 @@ fn descend<const Z: usize>(
     let closure = Closure::of(chain);
     let mut held: Vec<Held> = vec![[false; Q]; chain.pieces.len()];
     let mut now = chain.measure();
-    let mut misfit = gaps(chain) + closure.misfit(&chain.pieces);
+    let mut open = gaps(chain);
+    let mut misfit = open + closure.misfit(&chain.pieces);
     // Damping relative to the energy.
     let mut relative = if misfit < SMALL_GAP { JOINED } else { APART };
     let mut replans = 0;
@@ -73,11 +74,13 @@ fn descend<const Z: usize>(
         for _ in 0..4 {
             let next_held = forward(chain, &old, &plan, step, &held);
             let next = chain.measure_near(&now);
-            let next_misfit = gaps(chain) + closure.misfit(&chain.pieces);
+            // A full step leaves no gap, and no step opens one.
+            let next_open = if step == 1.0 || open == 0.0 { 0.0 } else { gaps(chain) };
+            let next_misfit = next_open + closure.misfit(&chain.pieces);
             let next_merit = 0.5 * next.energy + price * (next_misfit - SMALL_GAP).max(0.0);
             if next_merit <= merit * (1.0 + SLACK) {
                 gain = Some((merit - next_merit).abs() / (next_merit + 1e-6));
-                (now, misfit, held) = (next, next_misfit, next_held);
+                (now, open, misfit, held) = (next, next_open, next_misfit, next_held);
                 break;
             }
             // A full step that ran into bounds is planned anew with those controls held.

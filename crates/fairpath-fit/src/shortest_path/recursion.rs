@@ -218,7 +218,8 @@ pub(crate) fn backward<const Z: usize>(
     let mut pull = 0.0_f64;
     for k in (0..n).rev() {
         let q = &chain.pieces[k].q;
-        let (arrived, f) = end_with_jacobian(q);
+        // Nothing depends on where an open chain ends.
+        let (arrived, f) = if k + 1 < n || closure.count > 0 { end_with_jacobian(q) } else { Default::default() };
         if k + 1 < n {
             // The next piece's own start need not be where this one ends, at first.
             let next = &chain.pieces[k + 1];
@@ -559,7 +560,9 @@ pub(crate) fn forward<const Z: usize>(
             }
         }
         chain.pieces[k].q = q;
-        state = end(&q);
+        if k + 1 < old.len() {
+            state = end(&q);
+        }
         if step < 1.0 && k + 1 < old.len() {
             let gap = gap_before(chain, old, k + 1);
             for i in 0..4 {
