@@ -25,7 +25,7 @@ const M: usize = Q + EXTRA;
 /// Shortest length of a piece, px.
 const MIN_LENGTH: f64 = 1.0;
 /// Largest curvature, radians per px.
-const MAX_CURVATURE: f64 = 1.0;
+pub(crate) const MAX_CURVATURE: f64 = 1.0;
 
 /// How a heading and a curvature gap compare to one in position, px and px².
 const GAP_SCALE: [f64; 4] = [1.0, 1.0, 20.0, 200.0];
