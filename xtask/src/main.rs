@@ -53,6 +53,9 @@ enum Chore {
         /// Each stroke's row is the fastest of so many.
         #[arg(long, default_value_t = 5)]
         repeat: usize,
+        /// Writes docs/table1.md instead of printing.
+        #[arg(long)]
+        write: bool,
     },
     /// Run each fuzz target for a while.
     Fuzz {
@@ -84,7 +87,7 @@ fn main() -> ExitCode {
         Chore::Judge => test::judge(),
         Chore::Evaluate { names } => evaluate::run(&names),
         Chore::Bench { names, repeat } => bench::run(&names, repeat),
-        Chore::Table1 { repeat } => table1::run(repeat),
+        Chore::Table1 { repeat, write } => table1::run(repeat, write),
         Chore::Fuzz { seconds } => fuzz::run(seconds),
         Chore::Generate { check } => generate::run(check),
         Chore::Layers => layers::run().map(|note| println!("{note}")),

@@ -18,11 +18,11 @@ pub(crate) fn print(header: &[&str], rows: &[Vec<String>]) {
     }
 }
 
-/// Prints rows under a header, as markdown.
-pub(crate) fn print_markdown(header: &[&str], rows: &[Vec<String>]) {
-    println!("| {} |", header.join(" | "));
-    println!("| --- |{}", " ---: |".repeat(header.len() - 1));
+/// Rows under a header, as markdown.
+pub(crate) fn markdown(header: &[&str], rows: &[Vec<String>]) -> String {
+    let mut text = format!("| {} |\n| --- |{}\n", header.join(" | "), " ---: |".repeat(header.len() - 1));
     for row in rows {
-        println!("| {} |", row.join(" | "));
+        text.push_str(&format!("| {} |\n", row.join(" | ")));
     }
+    text
 }

@@ -1,13 +1,26 @@
 //! Table 1 of Baran, Lehtinen and Popović (2010), for the like strokes of ours, beside the paper's own rows.
 
+use std::fs;
+
 use anyhow::{Context, Result};
 use fairpath::stopwatch::{Milliseconds, Stopwatch};
 use fairpath_fit::{FitOptions, Preset, Report, Stroke, fit_observed};
 
-use crate::{data, table};
+use crate::{data, table, tree};
 
 const HEADER: &[&str] =
     &["Curve name", "Preprocess", "Fit", "Make graph", "Find path", "Merge", "Total", "Samples", "Nodes", "Edges"];
+
+/// What stands above the table on its page.
+const INTRODUCTION: &str = "\
+# The paper's table 1
+
+Time and size of each step of Baran, Lehtinen and Popović (2010), for strokes of our own that are like the paper's, beside the paper's rows.
+Written by `cargo xtask table1 --write`, on whatever machine it ran last.
+
+Fewer samples are taken than in the paper (12 on a circle, not 15) and their distance may change faster, so that there are fewer nodes; edges are
+counted when their cost is computed, which happens only when a search asks for it, so that making the graph takes no time.
+";
 
 struct Line {
     stroke: &'static str,
@@ -71,8 +84,8 @@ const LINES: &[Line] = &[
     },
 ];
 
-/// Prints the table.
-pub(crate) fn run(repeat: usize) -> Result<()> {
+/// Prints the table, or writes the page of docs/ that shows it.
+pub(crate) fn run(repeat: usize, write: bool) -> Result<()> {
     let strokes = data::shared("synthetic.json")?;
     let mut rows = Vec::new();
     for line in LINES {
@@ -83,10 +96,17 @@ pub(crate) fn run(repeat: usize) -> Result<()> {
         rows.push(row(line.name, &ours_s, [report.samples, report.nodes, report.edges], 5));
         rows.push(row(&format!("{}, the paper's", line.name), &line.paper_s, line.paper_sizes, 2));
     }
-    println!(
-        "Seconds, one thread, the fastest of {repeat}; the paper's rows are its own strokes on its own machine.\n"
+    let table = table::markdown(HEADER, &rows);
+    let what = format!(
+        "Seconds, one thread, the fastest of {repeat}; the paper's rows are its own strokes on its own machine."
     );
-    table::print_markdown(HEADER, &rows);
+    if !write {
+        print!("{what}\n\n{table}");
+        return Ok(());
+    }
+    let path = tree::root().join("docs/table1.md");
+    fs::write(&path, format!("{INTRODUCTION}\n{what}\n\n{table}")).context("cannot write docs/table1.md")?;
+    println!("wrote {}", path.display());
     Ok(())
 }
 

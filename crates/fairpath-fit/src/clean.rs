@@ -90,6 +90,19 @@ fn grain(points: &[Vec2]) -> f64 {
     if (turns as f64) < LATTICE_SHARE * (edges.len() - 1) as f64 {
         return 0.0;
     }
+    // A polygon turns so too, and only so at its corners; a step of a staircase turns back at once.
+    let turned: Vec<(usize, f64)> = edges
+        .windows(2)
+        .enumerate()
+        .filter_map(|(i, e)| {
+            let (along, across) = (e[0].dot(e[1]), e[0].cross(e[1]));
+            (across.abs() > 0.1 * along.abs()).then(|| (i, across.signum()))
+        })
+        .collect();
+    let steps = turned.windows(2).filter(|t| t[1].0 - t[0].0 <= LONGEST_STEP && t[0].1 != t[1].1).count();
+    if edges.len() > LONG_SIDE * turned.len() && (steps as f64) < STEP_SHARE * turned.len() as f64 {
+        return 0.0;
+    }
     let mut lengths: Vec<f64> = edges.iter().map(|e| e.hypot2().sqrt()).collect();
     let low = lengths.len() / 10;
     *lengths.select_nth_unstable_by(low, f64::total_cmp).1
@@ -127,6 +140,11 @@ fn smoothed(points: Vec<Vec2>, reach: f64) -> Vec<Vec2> {
 
 /// Fewer edges than this tell nothing of a lattice.
 const FEWEST_EDGES: usize = 6;
+/// Most edges between the two turns of a step, and the least share of turns that begin one: every second does where steps are apart.
+const LONGEST_STEP: usize = 2;
+const STEP_SHARE: f64 = 0.3;
+/// Edges that a side of a polygon has at least, on average; what turns more often may be a small drawing on a coarse lattice.
+const LONG_SIDE: usize = 8;
 /// Least share of regular turns on a lattice.
 const LATTICE_SHARE: f64 = 0.75;
 

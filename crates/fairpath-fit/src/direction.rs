@@ -43,9 +43,9 @@ pub(crate) fn turn_stages_round(stages: &mut Stages) {
         n.saturating_sub(1)
     };
     for corner in &mut stages.corners {
-        *corner = mirrored - *corner;
+        *corner = if stages.closed { (n - *corner) % n } else { mirrored - *corner };
     }
-    stages.corners.reverse();
+    stages.corners.sort_unstable();
     for c in &mut stages.candidates {
         let first = if stages.closed { (2 * n - c.last) % n } else { mirrored - c.last };
         *c = Candidate { segment: c.segment.reversed(), first, last: first + c.last - c.first, error: c.error };

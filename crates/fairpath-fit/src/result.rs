@@ -144,7 +144,7 @@ pub struct Stages {
     pub closed: bool,
     /// The resampled points (figure 4 b).
     pub samples: Vec<Point>,
-    /// Which samples are corners; the ends of an open stroke are not among them.
+    /// Which samples are corners, in order; the ends of an open stroke are not among them.
     pub corners: Vec<usize>,
     /// The candidates (figure 4 c).
     pub candidates: Vec<Candidate>,

@@ -140,13 +140,44 @@ fn no_candidate_runs_through_a_corner() {
         seen.fetch_add(stages.corners.len(), Ordering::Relaxed);
         let last = stages.samples.len() - usize::from(!stages.closed);
         assert!(stages.corners.windows(2).all(|c| c[0] < c[1]), "{name}: {:?}", stages.corners);
-        assert!(stages.corners.iter().all(|&c| c > 0 && c < last), "{name}: {:?}", stages.corners);
+        let inside = |c: usize| c < last && (c > 0 || stages.closed);
+        assert!(stages.corners.iter().all(|&c| inside(c)), "{name}: {:?}", stages.corners);
         for c in &stages.candidates {
             assert!(!stages.corners.iter().any(|&k| c.first < k && k < c.last), "{name}: {c:?} {:?}", stages.corners);
         }
     });
     let corners = seen.into_inner();
     assert!(n >= 4 && corners > 0, "{n} strokes with {corners} corners");
+}
+
+#[test]
+fn a_square_has_four_corners_wherever_it_was_begun_and_whichever_way_it_was_drawn() {
+    for begun in [0, 10, 37] {
+        for backward in [false, true] {
+            let side = |i: usize| match (i / 25 % 4, (i % 25) as f64 * 4.0) {
+                (0, u) => (u, 0.0),
+                (1, u) => (100.0, u),
+                (2, u) => (100.0 - u, 100.0),
+                (_, u) => (0.0, 100.0 - u),
+            };
+            let tilt = |(x, y): (f64, f64)| Point::new(0.96 * x - 0.28 * y, 0.28 * x + 0.96 * y);
+            let mut points: Vec<Point> = (0..=100).map(|i| tilt(side(begun + i))).collect();
+            if backward {
+                points.reverse();
+            }
+            let mut stages = Stages::default();
+            let fitted =
+                fit_observed(&Stroke::new("square", points), &FitOptions::default(), &mut (), Some(&mut stages));
+            assert!(fitted.is_ok_and(|f| f.spline.is_closed()));
+            let corners: Vec<Point> = stages.corners.iter().map(|&i| stages.samples[i]).collect();
+            assert_eq!(corners.len(), 4, "{corners:?}");
+            for corner in corners {
+                let off = |v: f64| v.abs().min((v - 100.0).abs());
+                let (x, y) = (0.96 * corner.x + 0.28 * corner.y, 0.96 * corner.y - 0.28 * corner.x);
+                assert!(off(x).max(off(y)) < 3.0, "{x}, {y}");
+            }
+        }
+    }
 }
 
 #[test]

@@ -168,6 +168,29 @@ fn a_tremor_of_a_few_thousandths_of_a_pixel_that_ends_where_it_began_is_fitted_o
 }
 
 #[test]
+fn a_blot_is_fitted_with_bounded_work_whatever_is_set() {
+    // A walk of half pixels: a curl of next to no radius is as near to it as any curve.
+    let mut state = 1_u64;
+    let mut step = || {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (state >> 40) as f64 / (1_u64 << 24) as f64 - 0.5
+    };
+    for round in 0..60 {
+        let mut at = Point::new(100.0, 100.0);
+        let points = (0..20 + 4 * round).map(|_| {
+            at += Vec2::new(step(), step());
+            at
+        });
+        let blot = Stroke::new("blot", points.collect());
+        for preset in Preset::ALL {
+            let fit = fitted(&blot, &FitOptions { closed: Closing::No, ..FitOptions::preset(preset) });
+            let turning: f64 = fit.spline.segments().iter().map(|s| s.absolute_turning()).sum();
+            assert!(turning < 300.0, "{preset:?}, round {round}: turns by {turning}");
+        }
+    }
+}
+
+#[test]
 fn a_closed_stroke_without_any_feasible_edge_still_gives_a_closed_curve() {
     // Tolerances that no primitive meets, and joins that none of the kinds can make.
     let tight = FitOptions { closed: Closing::Yes, max_error: 0.01, max_join_error: 1e-9, ..FitOptions::default() };

@@ -2,7 +2,7 @@
 //!
 //! | task | use |
 //! | --- | --- |
-//! | read strokes (JSON, SVG, CSV and blank-separated text, InkML) | [`read_strokes`], [`read_strokes_from`] |
+//! | read strokes (JSON, SVG, CSV and blank-separated text, InkML, GPX, GeoJSON) | [`read_strokes`], [`read_strokes_from`] |
 //! | write strokes (JSON, SVG, text) | [`write_strokes`], [`encode_strokes`] |
 //! | read splines (JSON, our SVG, CSV) | [`read_splines`], [`read_splines_from`] |
 //! | write splines (JSON, SVG, CSV, DXF, PNG) | [`write_splines`], [`encode_splines`] |
@@ -36,6 +36,7 @@
 mod atomic;
 mod drawable;
 mod error;
+mod geodetic;
 mod input;
 mod limits;
 pub mod picture;
@@ -48,6 +49,8 @@ mod spline_svg;
 mod splines;
 mod stroke_file;
 mod strokes;
+mod strokes_geojson;
+mod strokes_gpx;
 mod strokes_inkml;
 mod strokes_json;
 mod strokes_svg;

@@ -4,7 +4,7 @@ use crate::error::{Error, Fault};
 use crate::input::{check_size, extension, first_byte, label, open, peek, read_all, strip_bom, text};
 use crate::limits::ReadOptions;
 use crate::stroke_file::StrokeFile;
-use crate::{strokes_inkml, strokes_json, strokes_svg, strokes_text};
+use crate::{strokes_geojson, strokes_gpx, strokes_inkml, strokes_json, strokes_svg, strokes_text};
 use std::io::Read;
 use std::path::Path;
 
@@ -20,11 +20,14 @@ pub enum StrokeFormat {
     Text,
     /// Traces of W3C InkML.
     InkMl,
+    /// Tracks and routes of GPX, projected to local metres.
+    Gpx,
+    /// Lines and rings of GeoJSON, projected to local metres.
+    GeoJson,
 }
 
 /// What the readers of strokes accept.
-const EXPECTED: &str =
-    "strokes as JSON (fairpath-strokes 1), SVG, CSV or blank-separated text (x y [t [pressure]]), or InkML";
+const EXPECTED: &str = "strokes as JSON (fairpath-strokes 1), SVG, CSV or blank-separated text (x y [t [pressure]]), InkML, GPX or GeoJSON";
 
 impl StrokeFormat {
     /// The format of a file of that name, where its extension tells.
@@ -35,6 +38,8 @@ impl StrokeFormat {
             "svg" => Some(Self::Svg),
             "csv" | "tsv" | "txt" | "dat" | "xy" => Some(Self::Text),
             "inkml" | "ink" => Some(Self::InkMl),
+            "gpx" => Some(Self::Gpx),
+            "geojson" => Some(Self::GeoJson),
             _ => None,
         }
     }
@@ -43,14 +48,17 @@ impl StrokeFormat {
     #[must_use]
     pub fn from_content(head: &[u8]) -> Option<Self> {
         match first_byte(head)? {
+            b'{' if strokes_geojson::begins(head) => Some(Self::GeoJson),
             b'{' => Some(Self::Json),
             b'<' => {
                 let find = |what: &[u8]| head.windows(what.len()).position(|w| w == what);
-                match (find(b"<svg"), find(b"<ink").or_else(|| find(b":ink"))) {
-                    (Some(svg), Some(ink)) => Some(if svg < ink { Self::Svg } else { Self::InkMl }),
-                    (None, Some(_)) => Some(Self::InkMl),
-                    _ => Some(Self::Svg),
-                }
+                let marks = [
+                    (find(b"<svg"), Self::Svg),
+                    (find(b"<ink").or_else(|| find(b":ink")), Self::InkMl),
+                    (find(b"<gpx"), Self::Gpx),
+                ];
+                let first = marks.into_iter().filter_map(|(at, format)| Some((at?, format))).min_by_key(|m| m.0);
+                Some(first.map_or(Self::Svg, |m| m.1))
             }
             b'0'..=b'9' | b'+' | b'-' | b'.' | b'#' | b'"' => Some(Self::Text),
             _ => {
@@ -80,7 +88,9 @@ pub fn read_strokes_from(
     options: &ReadOptions,
 ) -> Result<StrokeFile, Error> {
     let (head, reader) = peek(reader).map_err(|source| Error::Read { file: name.into(), source })?;
-    let Some(format) = format.or_else(|| StrokeFormat::from_content(&head)) else {
+    // GeoJSON files are often called `.json`.
+    let given = format.filter(|&f| f != StrokeFormat::Json || !strokes_geojson::begins(&head));
+    let Some(format) = given.or_else(|| StrokeFormat::from_content(&head)) else {
         let problem = match first_byte(&head) {
             None => "the file is empty".into(),
             Some(b) => format!("nothing known begins with {:?}", char::from(b)),
@@ -101,6 +111,8 @@ fn parse(bytes: &[u8], format: StrokeFormat, options: &ReadOptions) -> Result<St
         StrokeFormat::Json => strokes_json::read(text(bytes)?, options)?,
         StrokeFormat::Svg => strokes_svg::read(text(bytes)?, options)?,
         StrokeFormat::InkMl => strokes_inkml::read(text(bytes)?, options)?,
+        StrokeFormat::Gpx => strokes_gpx::read(text(bytes)?, options)?,
+        StrokeFormat::GeoJson => strokes_geojson::read(text(bytes)?, options)?,
         StrokeFormat::Text => strokes_text::read(bytes, options)?,
     };
     file.make_names_unique();
@@ -111,18 +123,21 @@ fn parse(bytes: &[u8], format: StrokeFormat, options: &ReadOptions) -> Result<St
 /// and the names in comments; SVG keeps the points of each stroke as a polyline.
 ///
 /// # Errors
-/// [`Error::Unwritable`] for InkML, which is only read, and for coordinates that are not finite.
+/// [`Error::Unwritable`] for InkML, GPX and GeoJSON, which are only read, and for coordinates that are not finite.
 pub fn encode_strokes(file: &StrokeFile, format: StrokeFormat) -> Result<Vec<u8>, Error> {
     match format {
         StrokeFormat::Json => strokes_json::write(file),
         StrokeFormat::Svg => strokes_svg::write(file),
         StrokeFormat::Text => strokes_text::write(file),
-        StrokeFormat::InkMl => Err(Error::Unwritable {
-            format: "InkML",
-            place: "the file as a whole".into(),
-            problem: "InkML is only read; write JSON, SVG or CSV".into(),
-        }),
+        StrokeFormat::InkMl => Err(only_read("InkML")),
+        StrokeFormat::Gpx => Err(only_read("GPX")),
+        StrokeFormat::GeoJson => Err(only_read("GeoJSON")),
     }
+}
+
+fn only_read(format: &'static str) -> Error {
+    let problem = format!("{format} is only read; write JSON, SVG or CSV");
+    Error::Unwritable { format, place: "the file as a whole".into(), problem }
 }
 
 /// Writes strokes to a file, whole or not at all, in the format of its extension (JSON where there is none).

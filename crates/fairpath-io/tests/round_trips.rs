@@ -108,8 +108,14 @@ fn spline_bits(file: &SplineFile) -> Vec<Vec<u64>> {
     file.splines.iter().map(of).collect()
 }
 
-const STROKE_FORMATS: [StrokeFormat; 4] =
-    [StrokeFormat::Json, StrokeFormat::Svg, StrokeFormat::Text, StrokeFormat::InkMl];
+const STROKE_FORMATS: [StrokeFormat; 6] = [
+    StrokeFormat::Json,
+    StrokeFormat::Svg,
+    StrokeFormat::Text,
+    StrokeFormat::InkMl,
+    StrokeFormat::Gpx,
+    StrokeFormat::GeoJson,
+];
 const SPLINE_FORMATS: [SplineFormat; 3] = [SplineFormat::Json, SplineFormat::Svg, SplineFormat::Csv];
 
 /// Reads the bytes as everything; what comes out does not matter, only that something does.

@@ -345,12 +345,110 @@ fn inkml_that_breaks_the_rules_is_refused_with_line_element_and_point() {
     }
 }
 
+// ---- GPX and GeoJSON ------------------------------------------------------------------------------------------------
+
+const GPX: &str = r#"<gpx version="1.1" xmlns="http://www.topografix.com/GPX/1/1">
+  <wpt lat="46" lon="8"/>
+  <trk><name>ridge</name>
+    <trkseg>
+      <trkpt lat="46.000" lon="8.000"><ele>500</ele><time>2024-05-17T08:30:00Z</time></trkpt>
+      <trkpt lat="46.001" lon="8.000"><time>2024-05-17T08:30:10.5Z</time></trkpt>
+    </trkseg>
+    <trkseg><trkpt lat="46.001" lon="8.002"/><trkpt lat="46.000" lon="8.002"/></trkseg>
+  </trk>
+  <rte><rtept lat="46" lon="8.001"/><rtept lat="46.001" lon="8.001"/></rte>
+</gpx>"#;
+
+#[test]
+fn gpx_tracks_and_routes_are_strokes_in_metres_with_y_up() {
+    let file = read(GPX, None).unwrap();
+    let names: Vec<&str> = file.strokes.iter().map(|s| s.name.as_str()).collect();
+    assert_eq!(names, ["ridge/0", "ridge/1", "route/1"]);
+    assert_eq!((file.unit, file.y), (Unit::M, YAxis::Up));
+    assert_eq!((&file.strokes[0].times_s[..], file.strokes[1].times_s.len()), (&[0.0, 10.5][..], 0));
+    // A thousandth of a degree: 111.15 m of meridian and 77.46 m of parallel at 46 degrees.
+    let [a, b] = [0, 1].map(|i| file.strokes[0].points[i]);
+    assert!((b.y - a.y - 111.15).abs() < 0.01 && (b.y + a.y).abs() < 1e-3, "{a:?} {b:?}");
+    assert!((file.strokes[1].points[1].x - a.x - 2.0 * 77.46).abs() < 0.02, "{:?}", file.strokes[1].points);
+    assert!(
+        file.warnings.iter().any(|w| w.code == "projected" && w.text.contains("longitude 8.001")),
+        "{:?}",
+        file.warnings
+    );
+}
+
+#[test]
+fn geojson_lines_and_rings_are_strokes_under_the_names_of_their_features() {
+    let text = r#"{"type": "FeatureCollection", "features": [
+        {"type": "Feature", "properties": {"name": "road", "lanes": 2}, "geometry":
+            {"type": "LineString", "coordinates": [[179.999, 10, 3], [-179.999, 10]]}},
+        {"type": "Feature", "id": 7, "properties": null, "geometry":
+            {"type": "Polygon", "coordinates": [[[180, 10], [180.001, 10], [180.001, 10.001], [180, 10]]]}},
+        {"type": "Feature", "properties": {}, "geometry": null},
+        {"type": "Feature", "properties": {}, "geometry": {"type": "Point", "coordinates": [0, 0]}}]}"#;
+    for format in [None, Some(StrokeFormat::GeoJson), Some(StrokeFormat::Json)] {
+        let file = read(text, format).unwrap();
+        let names: Vec<&str> = file.strokes.iter().map(|s| s.name.as_str()).collect();
+        assert_eq!(names, ["road", "7"]);
+        // Across the 180th meridian it is as near as it is.
+        let road = &file.strokes[0].points;
+        assert!((road[1].x - road[0].x - 219.3).abs() < 0.1, "{road:?}");
+        let codes: Vec<&str> = file.warnings.iter().map(|w| w.code.as_str()).collect();
+        assert_eq!(codes, ["points-left-out", "projected"]);
+    }
+}
+
+#[test]
+fn faults_of_gpx_and_geojson_say_where_and_what_to_do() {
+    let gpx = [
+        ("<gpx><trk><trkseg><trkpt lat=\"1\"/></trkseg></trk></gpx>", "line 1, <trkpt>: there is no attribute lon"),
+        ("<gpx><trk><trkseg><trkpt lat=\"one\" lon=\"2\"/></trkseg></trk></gpx>", "lat=\"one\" is no number"),
+        ("<gpx><trk><trkseg><trkpt lat=\"5e6\" lon=\"2\"/></trkseg></trk></gpx>", "swapped, or in metres"),
+        ("<gpx><trk><trkseg><trkpt lat=\"1\" lon=\"NaN\"/></trkseg></trk></gpx>", "longitude NaN is not within"),
+        (
+            "<gpx><trk><trkseg><trkpt lat=\"1\" lon=\"2\"><time>noon</time></trkpt></trkseg></trk></gpx>",
+            "expected one such as 2024",
+        ),
+        ("<gpx><wpt lat=\"1\" lon=\"2\"/></gpx>", "no track or route"),
+        ("<svg/>", "expected <gpx>"),
+        ("<gpx><trk>", "cut off"),
+    ];
+    for (text, expected) in gpx {
+        let message = message(text, StrokeFormat::Gpx);
+        assert!(message.contains(expected), "{text}: {message}");
+    }
+    let line = |coordinates: &str| format!("{{\"type\":\"LineString\",\"coordinates\":{coordinates}}}");
+    let geojson = [
+        (line("[[1,2],[3]]"), "LineString, position 1: expected [longitude, latitude]"),
+        (line("[[1,2],[\"3\",4]]"), "expected coordinates: numbers in lists"),
+        (line("[1,2]"), "position 0: expected [longitude, latitude]"),
+        (line("[[2600000,1200000]]"), "latitude 1200000 is not within"),
+        (line("[[-170,0],[0,0],[170,0]]"), "split the file"),
+        ("{\"type\":\"LineString\",\"coordinates\":[[1,2],[3".into(), "cut off"),
+        ("{\"type\":\"LineString\"}".into(), "there are no coordinates"),
+        ("{\"type\":\"Circle\"}".into(), "\"Circle\" is no type of GeoJSON"),
+        ("{\"type\":\"FeatureCollection\",\"features\":[]}".into(), "no line or polygon"),
+        (
+            "{\"type\":\"LineString\",\"coordinates\":[[1,2],[3,4]],\"crs\":{\"properties\":{\"name\":\"EPSG:2056\"}}}"
+                .into(),
+            "reproject the file to WGS 84",
+        ),
+    ];
+    for (text, expected) in geojson {
+        let message = message(&text, StrokeFormat::GeoJson);
+        assert!(message.contains(expected), "{text}: {message}");
+    }
+}
+
 #[test]
 fn the_content_tells_the_format_where_the_name_does_not() {
     let cases = [
         ("  \n{", Some(StrokeFormat::Json)),
         ("\u{feff}<?xml version=\"1.0\"?><svg>", Some(StrokeFormat::Svg)),
         ("<inkml:ink xmlns:inkml=\"x\">", Some(StrokeFormat::InkMl)),
+        ("<?xml version=\"1.0\"?>\n<gpx version=\"1.1\">", Some(StrokeFormat::Gpx)),
+        ("{\"type\": \"FeatureCollection\",", Some(StrokeFormat::GeoJson)),
+        ("{\"type\": \"fairpath-strokes\", \"LineString\"", Some(StrokeFormat::Json)),
         ("-1 2", Some(StrokeFormat::Text)),
         ("x,y", Some(StrokeFormat::Text)),
         ("hello", None),

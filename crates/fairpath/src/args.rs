@@ -34,8 +34,8 @@ pub enum Command {
 #[derive(Args, Debug)]
 #[command(after_help = EXIT_CODES)]
 pub struct FitArgs {
-    /// Files of strokes: JSON (fairpath-strokes 1), SVG, InkML, or CSV and text of rows `x y [t [pressure]]` with a
-    /// blank line between strokes; `-` is standard input
+    /// Files of strokes: JSON (fairpath-strokes 1), SVG, InkML, GPX, GeoJSON, or CSV and text of rows
+    /// `x y [t [pressure]]` with a blank line between strokes; `-` is standard input
     #[arg(value_name = "INPUT", required_unless_present = "list_parameters")]
     pub inputs: Vec<PathBuf>,
 

@@ -1,5 +1,6 @@
 //! Candidate primitives for every run of samples (section 3.3 of Baran et al. 2010).
 
+use super::recursion::MAX_CURVATURE;
 use crate::linear::{cholesky, solve, solve_lower};
 use crate::options::{Deviation, FitOptions};
 use crate::primitive_fit::{Normal, Walked, chord, circle_through, walk_arc, walk_line, walk_near};
@@ -143,6 +144,12 @@ fn stride(span: usize) -> usize {
     }
 }
 
+/// Whether a primitive bends no more than merging lets it: a curl far smaller than a pixel lies near all points of a blot, but
+/// would wind on for ever.
+pub(crate) fn mergeable(p: &Primitive, length: f64) -> bool {
+    p.kappa.abs().max((p.kappa + p.sharpness * length).abs()) <= MAX_CURVATURE
+}
+
 /// A kind of primitive is given up after this many runs in sequence that it does not fit.
 const PATIENCE: usize = 2;
 
@@ -226,7 +233,10 @@ fn extend(
         fit = next;
     }
     let extent = data[data.len() - 1].s - data[0].s;
-    let sound = fit.normal.energy.is_finite() && fit.length > 0.25 * extent && fit.length < 1.5 * extent + 4.0;
+    let sound = fit.normal.energy.is_finite()
+        && fit.length > 0.25 * extent
+        && fit.length < 1.5 * extent + 4.0
+        && mergeable(&fit.primitive, fit.length);
     let error = deviation(fit.normal.energy, fit.normal.weight, fit.normal.max, options);
     if !sound
         || fit.normal.max > options.max_error
@@ -293,7 +303,7 @@ fn constrained(
             p.sharpness -= by;
             by * square * fit.length * (1.0 / 6.0)
         };
-        if p.sharpness == 0.0 {
+        if p.sharpness == 0.0 || !mergeable(&p, fit.length) {
             continue;
         }
         // If that moves the far end of a long or tight one, it is measured as it is now.

@@ -173,7 +173,7 @@ fn least_covered(graph: &Graph) -> (usize, Vec<u32>) {
 mod tests {
     use super::*;
     use crate::clean::clean;
-    use crate::options::{Closing, FitOptions};
+    use crate::options::FitOptions;
     use crate::shortest_path::candidates::candidates;
     use crate::shortest_path::graph::Edge;
     use crate::shortest_path::transition::overlap;

@@ -280,7 +280,8 @@ fn stages(graph: &Graph, path: Option<&Path>, circle: Option<&Circle>, track: &T
         points: cleaned.points.iter().map(|p| cleaned.restore(*p)).collect(),
         closed: track.shape != Shape::Open,
         samples: (0..n).map(|i| cleaned.restore(track.all.sample(i))).collect(),
-        corners: (0..n).filter(|&i| track.corner[i]).collect(),
+        // The seam of a loop is a corner, although the fit begins there as at an end.
+        corners: (0..n).filter(|&i| track.corner[i] || (i == 0 && track.shape == Shape::Loop)).collect(),
         candidates: graph
             .candidates
             .iter()

@@ -22,7 +22,7 @@ pub(crate) const CLOSED: usize = STATE + 8;
 /// Shortest length of a piece, px.
 const MIN_LENGTH: f64 = 1.0;
 /// Largest curvature, radians per px.
-const MAX_CURVATURE: f64 = 1.0;
+pub(crate) const MAX_CURVATURE: f64 = 1.0;
 
 /// How a heading and a curvature gap compare to one in position, px and px².
 pub(crate) const GAP_SCALE: [f64; 4] = [1.0, 1.0, 20.0, 200.0];

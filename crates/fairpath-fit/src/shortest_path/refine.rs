@@ -4,7 +4,7 @@
 //! change that the same costs would welcome (two pieces become one, a clothoid becomes an arc, an arc a line, a piece is split) is tried on
 //! the piece and its neighbours, merged anew, and kept if what it really costs is less. Beyond the paper.
 
-use super::candidates::{deviation, penalty};
+use super::candidates::{deviation, mergeable, penalty};
 use super::chain::{Chain, KAPPA0, KAPPA1, LENGTH, Measured, Piece, Pin, end};
 use super::merge::{Effort, is_hopeful, merge, merge_while};
 use super::transition::possible;
@@ -244,7 +244,7 @@ fn united(
         Kind::Clothoid => fit_freely(&guess, data, 4, 3, 1.0),
     };
     let p = fit.primitive;
-    if !(fit.normal.energy.is_finite() && fit.length > 0.4 * length) {
+    if !(fit.normal.energy.is_finite() && fit.length > 0.4 * length && mergeable(&p, fit.length)) {
         return None;
     }
     let sign = if kind == Kind::Clothoid && a.sign[0] == b.sign[1] { [a.sign[0], b.sign[1]] } else { [0, 0] };

@@ -1,0 +1,47 @@
+//! What the targets have in common.
+
+use fairpath_io::{
+    ReadOptions, SplineFormat, StrokeFormat, WriteOptions, encode_splines, encode_strokes, read_splines_from,
+    read_strokes_from,
+};
+
+/// Any bytes as splines in one format: read or refused, and what was read can be written in every format and reads back the same.
+///
+/// # Panics
+/// When it does not.
+pub fn splines(bytes: &[u8], format: SplineFormat) {
+    let options = ReadOptions::default();
+    let Ok(mut file) = read_splines_from(bytes, "fuzz", Some(format), &options) else { return };
+    let mut writing = WriteOptions::default();
+    writing.picture.size_px = 64.0;
+    file.warnings.clear();
+    for format in SplineFormat::ALL {
+        let Ok(encoded) = encode_splines(&file, format, None, &writing) else { continue };
+        match format {
+            SplineFormat::Json | SplineFormat::Svg => {
+                let back = read_splines_from(&encoded.bytes[..], "fuzz", Some(format), &options);
+                assert_eq!(back.expect("our own file is read"), file);
+            }
+            SplineFormat::Csv => {
+                let back = read_splines_from(&encoded.bytes[..], "fuzz", Some(format), &options);
+                assert_eq!(back.expect("our own file is read").splines.len(), file.splines.len());
+            }
+            _ => {}
+        }
+    }
+}
+
+/// Any bytes as strokes in one format: read or refused, and what was read can be written and reads back the same.
+///
+/// # Panics
+/// When it does not.
+pub fn strokes(bytes: &[u8], format: StrokeFormat) {
+    let mut options = ReadOptions::default();
+    options.limits.max_points = 200_000;
+    options.limits.max_nodes = 20_000;
+    let Ok(mut file) = read_strokes_from(bytes, "fuzz", Some(format), &options) else { return };
+    let json = encode_strokes(&file, StrokeFormat::Json).expect("what was read is finite");
+    let back = read_strokes_from(&json[..], "fuzz", Some(StrokeFormat::Json), &options).expect("our own JSON is read");
+    file.warnings.clear();
+    assert_eq!(file, back);
+}
