@@ -16,8 +16,8 @@ use crate::direction::{is_backward, turn_stages_round, turned_round};
 use crate::options::{ClosedSearch, Closing, FitOptions};
 use crate::result::{self, Fit, FitError, Observer, Report, Stages, Step, Warning};
 use crate::stroke::Stroke;
-use crate::track::{Shape, Track, prepare};
-use chain::Chain;
+use crate::track::{Course, Shape, Track, prepare};
+use chain::{Chain, Measured};
 use circle::Circle;
 use fairpath_curve::{Continuity, Point, Segment, Spline, trig};
 use graph::{Graph, Node, Path};
@@ -211,11 +211,42 @@ fn merge_path(graph: &Graph, path: &Path, track: &Track, options: &FitOptions) -
         // Chosen by the coarse points, fitted to all.
         let mut coarse = along(&track.coarse, joins);
         let measured = merge(&mut coarse, FINAL)?;
-        refine::refine(&mut coarse, measured, options, FINAL)?;
+        let measured = refine::refine(&mut coarse, measured, options, FINAL)?;
+        let smooth = track.shape == Shape::Ring && !coarse.joins.contains(&Continuity::G0);
+        // What lies at the seam is looked at once more from the other side.
+        if smooth && let Some((other, begin)) = half_round(&coarse, &measured, &track.coarse, nodes[0].first as usize) {
+            let mut other = other;
+            if let Some(measured) = merge(&mut other, FINAL)
+                && refine::refine(&mut other, measured, options, FINAL).is_some()
+            {
+                let from = track.all.data.partition_point(|d| d.s < begin);
+                chain.data = &track.all.data[from..from + chain.data.len()];
+                coarse = other;
+            }
+        }
         (chain.pieces, chain.joins) = (coarse.pieces, coarse.joins);
     }
     merge(&mut chain, FINAL)?;
     Some((chain.pieces.iter().map(chain::Piece::segment).collect(), chain.joins, closed))
+}
+
+/// A ring's chain, which begins at sample `first`, begun half its pieces later, and the arc length along the track where that is, px.
+fn half_round<'a>(
+    chain: &Chain<'a>,
+    measured: &Measured,
+    course: &'a Course,
+    first: usize,
+) -> Option<(Chain<'a>, f64)> {
+    let half = chain.pieces.len() / 2;
+    let (begin, end) = measured.normals[half].span;
+    if begin >= end {
+        return None;
+    }
+    let from = course.samples[first] + begin;
+    let mut chain = Chain { data: &course.data[from..from + chain.data.len()], ..chain.clone() };
+    chain.pieces.rotate_left(half);
+    chain.joins.rotate_left(half);
+    Some((chain, course.data[from].s))
 }
 
 /// The points joined by lines: what is left where nothing fits.
