@@ -70,26 +70,27 @@ pub(crate) fn clean(points: &[Point], pixel_size: f64) -> Result<Cleaned, FitErr
 /// Drawings larger than this cannot be resolved in double precision at a thousandth of a pixel, px.
 const LARGEST: f64 = 1e9;
 
-/// The step of the lattice on which the points lie, px; zero if they do not lie on one. On a lattice nearly all turns are by multiples
-/// of 45°, however the drawing has been rotated since.
+/// The step of the lattice on which the points lie, px; zero if they do not lie on one. On a lattice nearly all edges are small whole
+/// multiples of the shortest along it and across it, however the drawing has been rotated since.
 fn grain(points: &[Vec2]) -> f64 {
     let edges: Vec<Vec2> = points.windows(2).map(|p| p[1] - p[0]).collect();
     if edges.len() < FEWEST_EDGES {
         return 0.0;
     }
-    // The turn as a complex number; its eighth power is one for a multiple of 45°.
-    let regular = |pair: &[Vec2]| {
-        let (a, b) = (pair[0], pair[1]);
-        let z = (a.dot(b), a.cross(b));
-        let square = |(x, y): (f64, f64)| (x * x - y * y, 2.0 * x * y);
-        let size = (z.0 * z.0 + z.1 * z.1).sqrt();
-        let (x, y) = square(square(square((z.0 / size, z.1 / size))));
-        x > 0.0 && y.abs() < 0.01
+    let mut by_length = edges.clone();
+    let low = by_length.len() / 10;
+    let short = *by_length.select_nth_unstable_by(low, |a, b| a.hypot2().total_cmp(&b.hypot2())).1;
+    let fits = |step: &Vec2| {
+        let whole = |v: f64| {
+            let v = v / step.hypot2();
+            (v - (v + 0.5).floor()).abs() < OFF_LATTICE && v.abs() < FURTHEST
+        };
+        let on = edges.iter().filter(|e| whole(e.dot(*step)) && whole(e.cross(*step))).count();
+        on as f64 >= LATTICE_SHARE * edges.len() as f64
     };
-    let turns = edges.windows(2).filter(|e| regular(e)).count();
-    if (turns as f64) < LATTICE_SHARE * (edges.len() - 1) as f64 {
-        return 0.0;
-    }
+    // The shortest edge may be a diagonal of the lattice.
+    let diagonal = Vec2::new(0.5 * (short.x + short.y), 0.5 * (short.y - short.x));
+    let Some(step) = [short, diagonal].into_iter().find(fits) else { return 0.0 };
     // A polygon turns so too, and only so at its corners; a step of a staircase turns back at once.
     let turned: Vec<(usize, f64)> = edges
         .windows(2)
@@ -103,9 +104,7 @@ fn grain(points: &[Vec2]) -> f64 {
     if edges.len() > LONG_SIDE * turned.len() && (steps as f64) < STEP_SHARE * turned.len() as f64 {
         return 0.0;
     }
-    let mut lengths: Vec<f64> = edges.iter().map(|e| e.hypot2().sqrt()).collect();
-    let low = lengths.len() / 10;
-    *lengths.select_nth_unstable_by(low, f64::total_cmp).1
+    step.hypot2().sqrt()
 }
 
 /// Length on each side over which a staircase is averaged, in its steps.
@@ -145,8 +144,10 @@ const LONGEST_STEP: usize = 2;
 const STEP_SHARE: f64 = 0.3;
 /// Edges that a side of a polygon has at least, on average; what turns more often may be a small drawing on a coarse lattice.
 const LONG_SIDE: usize = 8;
-/// Least share of regular turns on a lattice.
-const LATTICE_SHARE: f64 = 0.75;
+/// Least share of edges on a lattice, how far from it they may end, and the longest, in its steps.
+const LATTICE_SHARE: f64 = 0.9;
+const OFF_LATTICE: f64 = 0.1;
+const FURTHEST: f64 = 4.5;
 
 /// Averages neighbours where the points lie denser than [`DENSEST`]; the ends stay.
 fn thin(points: &[Vec2]) -> Vec<Vec2> {

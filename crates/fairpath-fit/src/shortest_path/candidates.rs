@@ -144,11 +144,14 @@ fn stride(span: usize) -> usize {
     }
 }
 
-/// Whether a primitive bends no more than merging lets it: a curl far smaller than a pixel lies near all points of a blot, but
+/// Whether merging can straighten a primitive to what it allows. A curl far smaller than a pixel lies near all points of a blot, but
 /// would wind on for ever.
 pub(crate) fn mergeable(p: &Primitive, length: f64) -> bool {
-    p.kappa.abs().max((p.kappa + p.sharpness * length).abs()) <= MAX_CURVATURE
+    p.kappa.abs().max((p.kappa + p.sharpness * length).abs()) <= SHARPEST * MAX_CURVATURE
 }
+
+/// A primitive may bend more than a merged one by this factor: fits of two or three samples do without being curls.
+const SHARPEST: f64 = 10.0;
 
 /// A kind of primitive is given up after this many runs in sequence that it does not fit.
 const PATIENCE: usize = 2;

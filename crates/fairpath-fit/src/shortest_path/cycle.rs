@@ -39,7 +39,17 @@ pub(crate) fn shortest_cycle(graph: &mut Graph, verifier: &mut Verifier, below: 
     for group in search.promising_groups(&distances) {
         search.through(&distances, group);
     }
-    search.best
+    search.best.map(|cycle| from_longest(search.graph, cycle))
+}
+
+/// The cycle begun at its longest node: later steps change nothing across the seam, and there they would least want to.
+fn from_longest(graph: &Graph, mut cycle: Path) -> Path {
+    let length = |i: &u32| graph.candidates[graph.nodes[*i as usize].candidate as usize].length;
+    let nodes = cycle.nodes.iter().enumerate();
+    let longest = nodes.max_by(|a, b| length(a.1).total_cmp(&length(b.1))).map_or(0, |n| n.0);
+    cycle.nodes.rotate_left(longest);
+    cycle.joins.rotate_left(longest);
+    cycle
 }
 
 struct Search<'a, 'g, 'v> {

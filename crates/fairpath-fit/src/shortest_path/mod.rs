@@ -17,12 +17,13 @@ use crate::direction::{is_backward, turn_stages_round, turned_round};
 use crate::options::{ClosedSearch, Closing, FitOptions};
 use crate::result::{self, Fit, FitError, Observer, Report, Stages, Step, Warning};
 use crate::stroke::Stroke;
-use crate::track::{Shape, Track, prepare};
-use chain::Chain;
+use crate::track::{Course, Shape, Track, prepare};
+use chain::{Chain, Measured};
 use circle::Circle;
 use fairpath_curve::{Continuity, Point, Segment, Spline, trig};
 use graph::{Graph, Node, Path};
 use merge::{Effort, merge};
+use search::Verifier;
 
 /// Effort of the final merge.
 const FINAL: Effort = Effort { rounds: 14, tolerance: 1e-3 };
@@ -164,25 +165,45 @@ fn attempt(
     observer.step(Step::Graph);
     let mut graph = Graph::new(&candidates, track, options);
     observer.step(Step::Search);
+    let exact_ring = track.shape == Shape::Ring && options.closed_search == ClosedSearch::Exact;
     // A circle is a cycle too, of one piece.
-    let one_piece = track.shape == Shape::Ring && options.closed_search == ClosedSearch::Exact;
-    let circle = if one_piece { circle::circle(track, options) } else { None };
-    let (path, validations) = search::search(&mut graph, track, options, circle.map_or(f64::INFINITY, |c| c.cost));
+    let circle = if exact_ring { circle::circle(track, options) } else { None };
+    let mut verifier = Verifier::new(track, options);
+    let mut path = search::search(&mut graph, &mut verifier, circle.map_or(f64::INFINITY, |c| c.cost));
     observer.step(Step::Merge);
+    let mut merged = path.as_ref().and_then(|p| merge_path(&graph, p, track, options));
+    // Joins are verified two pieces at a time. What that misses in a ring of few pieces shows in the whole, and another cycle may be
+    // better than it seemed to be.
+    let cost = merged.as_ref().map_or(f64::INFINITY, |m| m.cost);
+    if let (true, Some(first)) = (exact_ring, &path)
+        && cost > SURPRISE * first.cost
+    {
+        let other = search::three_rounds(&mut graph, &mut verifier).filter(|o| o.cost > first.cost + 1e-6);
+        let other_merged = other.as_ref().and_then(|p| merge_path(&graph, p, track, options));
+        if other_merged.as_ref().is_some_and(|m| m.cost < cost) {
+            (path, merged) = (other, other_merged);
+        }
+    }
+    if circle.is_some_and(|c| merged.as_ref().is_none_or(|m| c.cost < m.cost)) {
+        path = None;
+    }
     report.nodes = graph.nodes.len();
     report.edges = graph.computed;
-    report.validations = validations;
+    report.validations = verifier.verifications;
     if let Some(stages) = stages {
         *stages = self::stages(&graph, path.as_ref(), circle.as_ref(), track, cleaned);
     }
     if let Some(path) = path {
         report.cost = path.cost;
-        return merge_path(&graph, &path, track, options);
+        return merged.map(|m| m.parts);
     }
     let circle = circle?;
     report.cost = circle.cost;
     Some((vec![circle.arc], vec![Continuity::G3], true))
 }
+
+/// A merged ring that costs more than this many times what its path did was misjudged.
+const SURPRISE: f64 = 1.5;
 
 /// Options under which every stroke has a curve that is not far off: what was forbidden is dear instead.
 fn loosened(options: &FitOptions) -> FitOptions {
@@ -198,7 +219,14 @@ fn loosened(options: &FitOptions) -> FitOptions {
 
 type Parts = (Vec<Segment>, Vec<Continuity>, bool);
 
-fn merge_path(graph: &Graph, path: &Path, track: &Track, options: &FitOptions) -> Option<Parts> {
+/// A path with all its joins enforced.
+struct Merged {
+    parts: Parts,
+    /// As section 3.4 counts it, measured on the whole.
+    cost: f64,
+}
+
+fn merge_path(graph: &Graph, path: &Path, track: &Track, options: &FitOptions) -> Option<Merged> {
     let nodes: Vec<Node> = path.nodes.iter().map(|&i| graph.nodes[i as usize]).collect();
     let mut joins = path.joins.clone();
     let closed = track.shape != Shape::Open;
@@ -212,11 +240,43 @@ fn merge_path(graph: &Graph, path: &Path, track: &Track, options: &FitOptions) -
         // Chosen by the coarse points, fitted to all.
         let mut coarse = along(&track.coarse, joins);
         let measured = merge(&mut coarse, FINAL)?;
-        refine::refine(&mut coarse, measured, options, FINAL)?;
+        let measured = refine::refine(&mut coarse, measured, options, FINAL)?;
+        let smooth = track.shape == Shape::Ring && !coarse.joins.contains(&Continuity::G0);
+        // What lies at the seam is looked at once more from the other side.
+        if smooth && let Some((other, begin)) = half_round(&coarse, &measured, &track.coarse, nodes[0].first as usize) {
+            let mut other = other;
+            if let Some(measured) = merge(&mut other, FINAL)
+                && refine::refine(&mut other, measured, options, FINAL).is_some()
+            {
+                let from = track.all.data.partition_point(|d| d.s < begin);
+                chain.data = &track.all.data[from..from + chain.data.len()];
+                coarse = other;
+            }
+        }
         (chain.pieces, chain.joins) = (coarse.pieces, coarse.joins);
     }
-    merge(&mut chain, FINAL)?;
-    Some((chain.pieces.iter().map(chain::Piece::segment).collect(), chain.joins, closed))
+    let measured = merge(&mut chain, FINAL)?;
+    let cost = refine::total(&chain, &measured, options);
+    Some(Merged { parts: (chain.pieces.iter().map(chain::Piece::segment).collect(), chain.joins, closed), cost })
+}
+
+/// A ring's chain, which begins at sample `first`, begun half its pieces later, and the arc length along the track where that is, px.
+fn half_round<'a>(
+    chain: &Chain<'a>,
+    measured: &Measured,
+    course: &'a Course,
+    first: usize,
+) -> Option<(Chain<'a>, f64)> {
+    let half = chain.pieces.len() / 2;
+    let (begin, end) = measured.normals[half].span;
+    if begin >= end {
+        return None;
+    }
+    let from = course.samples[first] + begin;
+    let mut chain = Chain { data: &course.data[from..from + chain.data.len()], ..chain.clone() };
+    chain.pieces.rotate_left(half);
+    chain.joins.rotate_left(half);
+    Some((chain, course.data[from].s))
 }
 
 /// The points joined by lines: what is left where nothing fits.

@@ -52,7 +52,7 @@ pub(crate) fn refine(chain: &mut Chain, measured: Measured, options: &FitOptions
 }
 
 /// The cost of a chain as section 3.4 counts it, on the chain as it is.
-fn total(chain: &Chain, measured: &Measured, options: &FitOptions) -> f64 {
+pub(super) fn total(chain: &Chain, measured: &Measured, options: &FitOptions) -> f64 {
     let errors = measured.normals.iter().map(|n| n.deviation(options));
     cost(&chain.pieces, errors, options)
 }

@@ -15,16 +15,14 @@ use fairpath_curve::{Continuity, Kind};
 /// Effort of verifying one join.
 const VERIFY: Effort = Effort { rounds: 5, tolerance: 3e-2 };
 
-/// The shortest path through the graph whose joins have all been verified, if it costs less than `below`, and how many verifications
-/// it took.
-pub(crate) fn search(graph: &mut Graph, track: &Track, options: &FitOptions, below: f64) -> (Option<Path>, usize) {
-    let mut verifier = Verifier::new(track, options);
-    let path = match (track.shape, options.closed_search) {
-        (Shape::Open | Shape::Loop, _) => verified(graph, &Goal::End, &mut verifier),
-        (Shape::Ring, ClosedSearch::Exact) => shortest_cycle(graph, &mut verifier, below),
-        (Shape::Ring, ClosedSearch::ThreeRounds) => three_rounds(graph, &mut verifier),
+/// The shortest path through the graph whose joins have all been verified, if it costs less than `below`.
+pub(crate) fn search(graph: &mut Graph, verifier: &mut Verifier, below: f64) -> Option<Path> {
+    let path = match (verifier.track.shape, verifier.options.closed_search) {
+        (Shape::Open | Shape::Loop, _) => verified(graph, &Goal::End, verifier),
+        (Shape::Ring, ClosedSearch::Exact) => shortest_cycle(graph, verifier, below),
+        (Shape::Ring, ClosedSearch::ThreeRounds) => three_rounds(graph, verifier),
     };
-    (path.filter(|p| p.cost < below), verifier.verifications)
+    path.filter(|p| p.cost < below)
 }
 
 /// A cycle found by searching once around from the node in the middle of what was found before, three times (section 3.5).
@@ -117,7 +115,7 @@ pub(super) const REPAIR_REACH: usize = 15;
 pub(super) struct Verifier<'a> {
     track: &'a Track,
     pub(super) options: &'a FitOptions,
-    verifications: usize,
+    pub(super) verifications: usize,
 }
 
 impl<'a> Verifier<'a> {
