@@ -141,16 +141,16 @@ impl<'a> Graph<'a> {
         if !possible(u.kind, v.kind, edge.level) {
             return f64::INFINITY;
         }
-        let (cu, cv) = (&self.candidates[u.candidate as usize], &self.candidates[v.candidate as usize]);
-        let mismatch = if self.at_corner(edge) {
-            0.0
-        } else {
-            match estimate(cu, cv, edge.level, self.options) {
-                Some(cost) => cost,
-                None => return f64::INFINITY,
-            }
-        };
-        base + mismatch + self.sign_cost(edge)
+        base + self.expected_deviation(edge) + self.sign_cost(edge)
+    }
+
+    /// The extra cost of deviation that a join is expected to bring; infinite where it would move both candidates too far.
+    pub(crate) fn expected_deviation(&self, edge: Edge) -> f64 {
+        if self.at_corner(edge) {
+            return 0.0;
+        }
+        let [u, v] = [edge.from, edge.to].map(|i| &self.candidates[self.nodes[i as usize].candidate as usize]);
+        estimate(u, v, edge.level, self.options).unwrap_or(f64::INFINITY)
     }
 
     fn sign_cost(&self, edge: Edge) -> f64 {

@@ -6,7 +6,7 @@
 
 use super::candidates::{deviation, penalty};
 use super::chain::{Chain, KAPPA0, KAPPA1, LENGTH, Measured, Piece, Pin, end};
-use super::merge::{Effort, is_hopeful, merge, merge_while};
+use super::merge::{Effort, Verdict, is_hopeful, merge, merge_until};
 use super::transition::possible;
 use crate::options::FitOptions;
 use crate::primitive_fit::{refine as fit_freely, walk_line};
@@ -354,8 +354,10 @@ fn tried(chain: &Chain, measured: &Measured, change: &Change, options: &FitOptio
     }
     let errors = measured.normals[window.clone()].iter().map(|n| n.deviation(options));
     let before = cost(&chain.pieces[window.clone()], errors, options);
-    let promising = |part: &Chain, now: &Measured, round: usize| is_hopeful(total(part, now, options) - before, round);
-    let mut result = merge_while(&mut part, TRY, promising)?;
+    let judge = |part: &Chain, now: &Measured, round: usize| {
+        if is_hopeful(total(part, now, options) - before, round) { Verdict::GoOn } else { Verdict::Hopeless }
+    };
+    let mut result = merge_until(&mut part, TRY, judge)?;
     let gain = before - total(&part, &result, options);
     for normal in &mut result.normals {
         if normal.span.0 < normal.span.1 {
