@@ -186,11 +186,13 @@ impl Walker {
     /// Moves to `s` if the foot of a point is near that place.
     #[inline]
     pub(crate) fn foot_near(&mut self, s: f64, point: Vec2) -> Option<Foot> {
-        let mut there = *self;
-        there.go_to(s);
-        let foot = there.foot(point)?;
-        *self = there;
-        Some(foot)
+        let here = *self;
+        self.go_to(s);
+        let foot = self.foot(point);
+        if foot.is_none() {
+            *self = here;
+        }
+        foot
     }
 
     /// The foot of a point, if it is near: to second order.

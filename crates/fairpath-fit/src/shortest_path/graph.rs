@@ -10,7 +10,7 @@ use super::transition::{Door, at_least, estimate, overlap, possible};
 use crate::options::FitOptions;
 use crate::track::Track;
 use fairpath_curve::{Continuity, Kind};
-use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
+use std::collections::{BTreeMap, BTreeSet, HashSet};
 
 /// A candidate with the logical signs of its curvature at start and end (section 3.8). A line makes two.
 #[derive(Clone, Copy, Debug)]
@@ -49,10 +49,8 @@ pub(crate) struct Graph<'a> {
     pub(super) options: &'a FitOptions,
     /// Nodes that start at each sample.
     starts: Vec<std::ops::Range<usize>>,
-    /// Costs learnt by verification; infinite for forbidden edges.
-    learnt: HashMap<Edge, f64>,
-    /// Whether anything was learnt about edges from a node.
-    touched: Vec<bool>,
+    /// Costs learnt by verification of the few edges from each node that were; infinite for forbidden edges.
+    learnt: Vec<Vec<(u32, Continuity, f64)>>,
     /// Edges whose cost was computed.
     pub(crate) computed: usize,
 }
@@ -75,7 +73,7 @@ impl<'a> Graph<'a> {
             starts.push(at..end);
             at = end;
         }
-        let touched = vec![false; nodes.len()];
+        let learnt = vec![Vec::new(); nodes.len()];
         Self {
             candidates,
             nodes,
@@ -84,8 +82,7 @@ impl<'a> Graph<'a> {
             corner: &track.corner,
             options,
             starts,
-            learnt: HashMap::new(),
-            touched,
+            learnt,
             computed: 0,
         }
     }
@@ -115,9 +112,7 @@ impl<'a> Graph<'a> {
     }
 
     pub(super) fn edge_cost(&mut self, edge: Edge, base: f64) -> f64 {
-        if self.touched[edge.from as usize]
-            && let Some(&cost) = self.learnt.get(&edge)
-        {
+        if let Some(cost) = self.learnt(edge) {
             return cost;
         }
         self.computed += 1;
@@ -170,7 +165,19 @@ impl<'a> Graph<'a> {
 
     /// Whether an edge has been verified.
     pub(crate) fn is_verified(&self, edge: Edge) -> bool {
-        self.learnt.contains_key(&edge)
+        self.learnt(edge).is_some()
+    }
+
+    fn learnt(&self, edge: Edge) -> Option<f64> {
+        let of_node = &self.learnt[edge.from as usize];
+        of_node.iter().find(|known| (known.0, known.1) == (edge.to, edge.level)).map(|known| known.2)
+    }
+
+    /// Notes what an edge costs.
+    fn note(&mut self, edge: Edge, cost: f64) {
+        let of_node = &mut self.learnt[edge.from as usize];
+        of_node.retain(|known| (known.0, known.1) != (edge.to, edge.level));
+        of_node.push((edge.to, edge.level, cost));
     }
 
     /// Notes what verification found: the extra cost of deviation. True if the edge got dearer.
@@ -179,15 +186,13 @@ impl<'a> Graph<'a> {
         let before = self.estimated(edge, base);
         let actual = base + deviation + self.sign_cost(edge);
         let dearer = !(actual <= before + 1e-9 * before.abs() + 1e-9);
-        self.learnt.insert(edge, if dearer { actual } else { before });
-        self.touched[edge.from as usize] = true;
+        self.note(edge, if dearer { actual } else { before });
         dearer
     }
 
     /// Forbids an edge.
     pub(crate) fn forbid(&mut self, edge: Edge) {
-        self.learnt.insert(edge, f64::INFINITY);
-        self.touched[edge.from as usize] = true;
+        self.note(edge, f64::INFINITY);
     }
 
     /// What an edge costs now.
@@ -400,7 +405,9 @@ impl Distances {
                 continue;
             }
             self.to_target[node as usize] = cost;
-            changed.insert(node);
+            if !self.gates.is_empty() {
+                changed.insert(node);
+            }
             let list = &mut self.order[position % self.turn];
             list.retain(|&i| i != node);
             if cost.is_finite() {
