@@ -119,11 +119,23 @@ impl Walker {
     pub(crate) fn go_to(&mut self, s: f64) {
         let kappa = self.primitive.kappa + self.primitive.sharpness * s;
         let turn = 0.5 * (self.kappa.abs() + kappa.abs()) * (s - self.s).abs();
-        if turn > LARGEST_TURN {
+        if turn == 0.0 {
+            self.go_straight(s);
+        } else if turn > LARGEST_TURN {
             self.go_far(s, turn);
         } else {
             self.step_to(s);
         }
+    }
+
+    /// Moves along a line.
+    #[inline]
+    fn go_straight(&mut self, s: f64) {
+        let (from, to) = (self.s, s);
+        self.position += self.tangent * (to - from);
+        self.first += self.tangent * (0.5 * (to * to - from * from));
+        self.second += self.tangent * ((1.0 / 6.0) * (to * to * to - from * from * from));
+        self.s = s;
     }
 
     /// Moves in several steps.
