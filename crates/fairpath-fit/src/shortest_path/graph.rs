@@ -35,6 +35,14 @@ pub(crate) struct Edge {
     pub(crate) level: Continuity,
 }
 
+/// The cost of an edge that verification taught, infinite if it is forbidden, and the note before about edges from the same node.
+struct Note {
+    to: u32,
+    level: Continuity,
+    cost: f64,
+    older: u32,
+}
+
 /// Candidates, nodes and what is known about edges.
 pub(crate) struct Graph<'a> {
     pub(crate) candidates: &'a [Candidate],
@@ -46,8 +54,9 @@ pub(crate) struct Graph<'a> {
     pub(super) options: &'a FitOptions,
     /// Nodes that start at each sample.
     starts: Vec<std::ops::Range<usize>>,
-    /// Costs learnt by verification of the few edges from each node that were; infinite for forbidden edges.
-    learnt: Vec<Vec<(u32, Continuity, f64)>>,
+    /// What verification taught, and for each node the newest of what concerns edges from there: its place, counted from one.
+    notes: Vec<Note>,
+    newest: Vec<u32>,
     /// Edges whose cost was computed.
     pub(crate) computed: usize,
 }
@@ -70,7 +79,7 @@ impl<'a> Graph<'a> {
             starts.push(at..end);
             at = end;
         }
-        let learnt = vec![Vec::new(); nodes.len()];
+        let newest = vec![0; nodes.len()];
         Self {
             candidates,
             nodes,
@@ -79,7 +88,8 @@ impl<'a> Graph<'a> {
             corner: &track.corner,
             options,
             starts,
-            learnt,
+            notes: Vec::new(),
+            newest,
             computed: 0,
         }
     }
@@ -166,15 +176,21 @@ impl<'a> Graph<'a> {
     }
 
     fn learnt(&self, edge: Edge) -> Option<f64> {
-        let of_node = &self.learnt[edge.from as usize];
-        of_node.iter().find(|known| (known.0, known.1) == (edge.to, edge.level)).map(|known| known.2)
+        let mut place = self.newest[edge.from as usize];
+        while place > 0 {
+            let note = &self.notes[place as usize - 1];
+            if (note.to, note.level) == (edge.to, edge.level) {
+                return Some(note.cost);
+            }
+            place = note.older;
+        }
+        None
     }
 
-    /// Notes what an edge costs.
     fn note(&mut self, edge: Edge, cost: f64) {
-        let of_node = &mut self.learnt[edge.from as usize];
-        of_node.retain(|known| (known.0, known.1) != (edge.to, edge.level));
-        of_node.push((edge.to, edge.level, cost));
+        let newest = &mut self.newest[edge.from as usize];
+        self.notes.push(Note { to: edge.to, level: edge.level, cost, older: *newest });
+        *newest = self.notes.len() as u32;
     }
 
     /// Notes what verification found: the extra cost of deviation. True if the edge got dearer.
