@@ -148,7 +148,11 @@ fn changes(chain: &Chain, measured: &Measured, k: usize, options: &FitOptions) -
         let (a, b) = (&chain.pieces[k], &chain.pieces[k + 1]);
         let data = span(measured, k..k + 2);
         for (kind, price) in kinds {
-            if let (Some(price), Some(piece)) = (price, united(chain, (a, b), kind, data.clone(), options)) {
+            // A fit is made only where a perfect one would do.
+            if let Some(price) = price
+                && both - price > PROMISING
+                && let Some(piece) = united(chain, (a, b), kind, data.clone(), options)
+            {
                 let promise = both - price - penalty(piece.1, options);
                 if promise > PROMISING {
                     out.push(Change { range: k..k + 2, with: vec![piece.0], level: Continuity::G2, promise });
@@ -160,8 +164,9 @@ fn changes(chain: &Chain, measured: &Measured, k: usize, options: &FitOptions) -
     for (kind, price) in kinds {
         let piece = &chain.pieces[k];
         if simplicity(kind) < simplicity(piece.kind)
-            && let (Some(price), Some(simpler)) =
-                (price, united(chain, (piece, piece), kind, span(measured, k..k + 1), options))
+            && let Some(price) = price
+            && own - price > PROMISING
+            && let Some(simpler) = united(chain, (piece, piece), kind, span(measured, k..k + 1), options)
         {
             let promise = own - price - penalty(simpler.1, options);
             if promise > PROMISING {
