@@ -165,7 +165,7 @@ fn angle_between(a: Vec2, b: Vec2) -> f64 {
 }
 
 /// An arc that turns less than this is walked along: its centre is too far away.
-const NEARLY_STRAIGHT: f64 = 1e-2;
+pub(crate) const NEARLY_STRAIGHT: f64 = 1e-2;
 
 /// Walks along `data`, the ends counting `end_factor` times their weight (equation 1), after moving the primitive's start to the
 /// foot of the first point.

@@ -2,8 +2,9 @@
 
 use crate::options::{FitOptions, Resampling};
 use crate::polyline::Polyline;
-use crate::primitive_fit::{circle_through, walk_arc};
+use crate::primitive_fit::{NEARLY_STRAIGHT, Normal, circle_through, walk_arc};
 use crate::walk::Datum;
+use fairpath_curve::Vec2;
 
 /// The desired distance of samples along a polyline: at each vertex, and in between the lower of the cones of both neighbours.
 pub(crate) struct Rate {
@@ -18,10 +19,52 @@ const GRAIN_WINDOW: f64 = 5.0;
 /// Points on a lattice lie exactly on the border of a window: rounding may not decide on which side, px.
 const HAIR: f64 = 1e-6;
 
-/// Curvature of a run of points: one Gauss–Newton step from a circle through three of them is near enough to place samples.
-fn bend(run: &[Datum]) -> f64 {
+/// Curvature of a run of points, one that is below `least` as something below: one Gauss–Newton step from a circle through three of
+/// them is near enough to place samples.
+fn bend(run: &[Datum], least: f64) -> f64 {
+    if let Some(bend) = bend_of_circle(run, least) {
+        return bend;
+    }
     let fit = walk_arc(&circle_through(run), run, 1.0);
-    fit.primitive.kappa.abs().min((fit.primitive.kappa + fit.normal.step(3).map_or(0.0, |s| s[2])).abs())
+    least_bend(fit.primitive.kappa, &fit.normal)
+}
+
+/// The lesser of the curvatures before and after the step.
+fn least_bend(kappa: f64, normal: &Normal) -> f64 {
+    kappa.abs().min((kappa + normal.step(3).map_or(0.0, |s| s[2])).abs())
+}
+
+/// As [`bend`], by the circle's radii alone; nothing where it is nearly a line.
+fn bend_of_circle(run: &[Datum], least: f64) -> Option<f64> {
+    let last = run.len() - 1;
+    let (a, m, b) = (run[0].point, run[run.len() / 2].point, run[last].point);
+    let (u, v) = (m - a, b - a);
+    let doubled_area = u.cross(v);
+    let norm = (v.hypot2() * (b - m).hypot2()).sqrt();
+    let kappa = 2.0 * doubled_area / (norm * u.hypot2().sqrt());
+    if kappa.abs() < least {
+        return Some(kappa.abs());
+    }
+    if !(kappa.abs() * (run[last].s - run[0].s) > NEARLY_STRAIGHT && kappa.is_finite()) {
+        return None;
+    }
+    let (sign, radius) = (kappa.signum(), 1.0 / kappa.abs());
+    // The tangent at the first point is the first chord turned back by the inscribed angle over it; the spoke is across.
+    let (cos, sin) = ((v - u).dot(v) / norm, doubled_area / norm);
+    let chord = u * (1.0 / u.hypot2().sqrt());
+    let tangent = Vec2::new(chord.x * cos + chord.y * sin, chord.y * cos - chord.x * sin);
+    let first = Vec2::new(tangent.y, -tangent.x) * sign;
+    let centre = a - first * radius;
+    let mut normal = Normal::ZERO;
+    for datum in run {
+        let arm = datum.point - centre;
+        let distance = arm.hypot2().sqrt();
+        let spoke = arm * (1.0 / distance);
+        let cos = spoke.dot(first);
+        let row = [cos, radius * sign * first.cross(spoke), radius * radius * (1.0 - cos)];
+        normal.add(&row, sign * (radius - distance), 1.0);
+    }
+    Some(least_bend(kappa, &normal))
 }
 
 /// Estimates the rate from the curvature at the vertices.
@@ -30,6 +73,8 @@ pub(crate) fn rate(line: &Polyline, grain: f64, options: &FitOptions) -> Rate {
     let n = line.points.len();
     let data: Vec<Datum> =
         line.points.iter().zip(&line.s).map(|(&point, &s)| Datum { point, s, weight: 1.0 }).collect();
+    // What bends less has the largest sampling distance anyway.
+    let least = std::f64::consts::TAU / (options.points_per_circle * options.max_sampling);
     let (mut first, mut last) = (0, 0);
     let mut reversed = Vec::new();
     let mut at_vertex: Vec<f64> = Vec::with_capacity(n);
@@ -49,7 +94,7 @@ pub(crate) fn rate(line: &Polyline, grain: f64, options: &FitOptions) -> Rate {
             let run = &data[a..=b];
             reversed.clear();
             reversed.extend(run.iter().rev());
-            0.5 * (bend(run) + bend(&reversed))
+            0.5 * (bend(run, least) + bend(&reversed, least))
         };
         let wanted = std::f64::consts::TAU / (options.points_per_circle * curvature.max(1e-9));
         at_vertex.push(wanted.clamp(options.min_sampling, options.max_sampling));

@@ -119,11 +119,23 @@ impl Walker {
     pub(crate) fn go_to(&mut self, s: f64) {
         let kappa = self.primitive.kappa + self.primitive.sharpness * s;
         let turn = 0.5 * (self.kappa.abs() + kappa.abs()) * (s - self.s).abs();
-        if turn > LARGEST_TURN {
+        if turn == 0.0 {
+            self.go_straight(s);
+        } else if turn > LARGEST_TURN {
             self.go_far(s, turn);
         } else {
             self.step_to(s);
         }
+    }
+
+    /// Moves along a line.
+    #[inline]
+    fn go_straight(&mut self, s: f64) {
+        let (from, to) = (self.s, s);
+        self.position += self.tangent * (to - from);
+        self.first += self.tangent * (0.5 * (to * to - from * from));
+        self.second += self.tangent * ((1.0 / 6.0) * (to * to * to - from * from * from));
+        self.s = s;
     }
 
     /// Moves in several steps.
@@ -186,11 +198,13 @@ impl Walker {
     /// Moves to `s` if the foot of a point is near that place.
     #[inline]
     pub(crate) fn foot_near(&mut self, s: f64, point: Vec2) -> Option<Foot> {
-        let mut there = *self;
-        there.go_to(s);
-        let foot = there.foot(point)?;
-        *self = there;
-        Some(foot)
+        let here = *self;
+        self.go_to(s);
+        let foot = self.foot(point);
+        if foot.is_none() {
+            *self = here;
+        }
+        foot
     }
 
     /// The foot of a point, if it is near: to second order.

@@ -3,7 +3,8 @@
 //! Distances to the target serve as its heuristic. Costs of joins only grow, so distances that were computed before stay bounds from
 //! below.
 
-use super::graph::{Distances, Edge, Graph, Path};
+use super::distances::Distances;
+use super::graph::{Edge, Graph, Path};
 use super::transition::overlap;
 use fairpath_curve::Continuity;
 use std::cmp::{Ordering, Reverse};

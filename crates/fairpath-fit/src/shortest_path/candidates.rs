@@ -1,6 +1,6 @@
 //! Candidate primitives for every run of samples (section 3.3 of Baran et al. 2010).
 
-use super::recursion::MAX_CURVATURE;
+use super::controls::MAX_CURVATURE;
 use crate::linear::{cholesky, solve, solve_lower};
 use crate::options::{Deviation, FitOptions};
 use crate::primitive_fit::{Normal, Walked, chord, circle_through, walk_arc, walk_line, walk_near};

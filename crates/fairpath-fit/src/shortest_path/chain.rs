@@ -61,6 +61,15 @@ pub(crate) struct Pin {
     pub(crate) count: usize,
 }
 
+impl Pin {
+    /// Adds what a pose, with its derivatives by the parameters of its piece, is away from this one.
+    fn hold(&self, piece: usize, pose: [f64; 4], rows: [[f64; Q]; 4], out: &mut Measured) {
+        for i in 0..self.count {
+            out.resist(piece, &rows[i], self.pose[i] - pose[i], PIN_STIFFNESS[i]);
+        }
+    }
+}
+
 /// What resists pieces that become short: a merge that knows only distances would let them vanish (section 3.4 prices them, section 3.6 is
 /// silent).
 #[derive(Clone, Copy, Debug)]
@@ -250,17 +259,14 @@ impl Chain<'_> {
 
     fn add_pins(&self, out: &mut Measured) {
         let last = self.pieces.len() - 1;
-        let first = &self.pieces[0].q;
-        let still = std::array::from_fn(|i| std::array::from_fn(|j| f64::from(u8::from(i == j))));
-        let ends = [(0, [first[0], first[1], first[2], first[3]], still), {
+        if let Some(pin) = &self.pins[0] {
+            let q = &self.pieces[0].q;
+            let still = std::array::from_fn(|i| std::array::from_fn(|j| f64::from(u8::from(i == j))));
+            pin.hold(0, [q[0], q[1], q[2], q[3]], still, out);
+        }
+        if let Some(pin) = &self.pins[1] {
             let (arrived, rows) = end_with_jacobian(&self.pieces[last].q);
-            (last, arrived, rows)
-        }];
-        for (pin, (piece, pose, rows)) in self.pins.iter().zip(ends) {
-            let Some(pin) = pin else { continue };
-            for i in 0..pin.count {
-                out.resist(piece, &rows[i], pin.pose[i] - pose[i], PIN_STIFFNESS[i]);
-            }
+            pin.hold(last, arrived, rows, out);
         }
     }
 

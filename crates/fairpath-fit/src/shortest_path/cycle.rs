@@ -6,7 +6,8 @@
 //! is still possible, the gates that it could pass are searched apart.
 
 use super::a_star::{a_star, arrivals};
-use super::graph::{Distances, Gates, Goal, Graph, Path};
+use super::distances::{Distances, Gates, Goal};
+use super::graph::{Graph, Path};
 use super::search::{REPAIR_REACH, ROUNDS_NEARBY, Verifier, verified};
 
 /// Costs that differ by less are equal.

@@ -27,25 +27,35 @@ pub(crate) struct Effort {
     pub(crate) tolerance: f64,
 }
 
-/// Fits the chain; nothing if it did not come to a finite end with exact joins.
-pub(crate) fn merge(chain: &mut Chain, effort: Effort) -> Option<Measured> {
-    merge_while(chain, effort, |_, _, _| true)
+/// What to do after a round.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Verdict {
+    GoOn,
+    /// The chain is good enough.
+    Enough,
+    /// It will not become good enough.
+    Hopeless,
 }
 
-/// As [`merge`], but given up, with nothing, when after some round the chain does not look `promising`.
-pub(crate) fn merge_while(
+/// Fits the chain; nothing if it did not come to a finite end with exact joins.
+pub(crate) fn merge(chain: &mut Chain, effort: Effort) -> Option<Measured> {
+    merge_until(chain, effort, |_, _, _| Verdict::GoOn)
+}
+
+/// As [`merge`], with a `judge` of the chain and its measurement after each round, who may end it: early, or with nothing.
+pub(crate) fn merge_until(
     chain: &mut Chain,
     effort: Effort,
-    promising: impl Fn(&Chain, &Measured, usize) -> bool,
+    judge: impl Fn(&Chain, &Measured, usize) -> Verdict,
 ) -> Option<Measured> {
-    if chain.closed { descend::<CLOSED>(chain, effort, promising) } else { descend::<OPEN>(chain, effort, promising) }
+    if chain.closed { descend::<CLOSED>(chain, effort, judge) } else { descend::<OPEN>(chain, effort, judge) }
 }
 
 /// Gauss–Newton rounds with a damping that follows their success.
 fn descend<const Z: usize>(
     chain: &mut Chain,
     effort: Effort,
-    promising: impl Fn(&Chain, &Measured, usize) -> bool,
+    judge: impl Fn(&Chain, &Measured, usize) -> Verdict,
 ) -> Option<Measured> {
     unwrap_headings(chain);
     let closure = Closure::of(chain);
@@ -97,7 +107,8 @@ fn descend<const Z: usize>(
             continue;
         }
         replans = 0;
-        if !promising(chain, &now, round) {
+        let verdict = judge(chain, &now, round);
+        if verdict == Verdict::Hopeless {
             return None;
         }
         let Some(gain) = gain else {
@@ -109,7 +120,7 @@ fn descend<const Z: usize>(
             continue;
         };
         relative = if step == 1.0 { (relative * 0.1).max(1e-9) } else { relative * 3.0 };
-        if gain < effort.tolerance && misfit < 1e-3 {
+        if (gain < effort.tolerance || verdict == Verdict::Enough) && misfit < 1e-3 {
             break;
         }
     }

@@ -4,7 +4,9 @@ mod a_star;
 mod candidates;
 mod chain;
 mod circle;
+mod controls;
 mod cycle;
+mod distances;
 mod graph;
 mod merge;
 mod recursion;
@@ -164,26 +166,33 @@ fn attempt(
     let candidates = candidates::candidates(track, options);
     observer.step(Step::Graph);
     let mut graph = Graph::new(&candidates, track, options);
-    observer.step(Step::Search);
     let exact_ring = track.shape == Shape::Ring && options.closed_search == ClosedSearch::Exact;
     // A circle is a cycle too, of one piece.
     let circle = if exact_ring { circle::circle(track, options) } else { None };
     let mut verifier = Verifier::new(track, options);
-    let mut path = search::search(&mut graph, &mut verifier, circle.map_or(f64::INFINITY, |c| c.cost));
-    observer.step(Step::Merge);
-    let mut merged = path.as_ref().and_then(|p| merge_path(&graph, p, track, options));
-    // Joins are verified two pieces at a time. What that misses in a ring of few pieces shows in the whole, and another cycle may be
-    // better than it seemed to be.
-    let cost = merged.as_ref().map_or(f64::INFINITY, |m| m.cost);
-    if let (true, Some(first)) = (exact_ring, &path)
-        && cost > SURPRISE * first.cost
-    {
-        let other = search::three_rounds(&mut graph, &mut verifier).filter(|o| o.cost > first.cost + 1e-6);
-        let other_merged = other.as_ref().and_then(|p| merge_path(&graph, p, track, options));
-        if other_merged.as_ref().is_some_and(|m| m.cost < cost) {
-            (path, merged) = (other, other_merged);
+    let below = circle.map_or(f64::INFINITY, |c| REFINED * c.cost);
+    let mut best: Option<(Path, Option<Merged>)> = None;
+    let cost_of = |merged: &Option<Merged>| merged.as_ref().map_or(f64::INFINITY, |m| m.cost);
+    for _ in 0..if exact_ring { RING_ROUNDS } else { 1 } {
+        observer.step(Step::Search);
+        let Some(path) = search::search(&mut graph, &mut verifier, below) else { break };
+        observer.step(Step::Merge);
+        let merged = merge_path(&graph, &path, track, options);
+        let cost = cost_of(&merged);
+        // Joins are verified two pieces at a time. What that misses in a ring of few pieces shows in the whole: then its joins bear
+        // what it costs more, and another cycle may be better.
+        let surprise = cost > SURPRISE * path.cost;
+        if surprise {
+            graph.burden(&path, cost - path.cost);
+        }
+        if best.as_ref().is_none_or(|b| cost < cost_of(&b.1)) {
+            best = Some((path, merged));
+        }
+        if !surprise {
+            break;
         }
     }
+    let (mut path, merged) = best.map_or((None, None), |(path, merged)| (Some(path), merged));
     if circle.is_some_and(|c| merged.as_ref().is_none_or(|m| c.cost < m.cost)) {
         path = None;
     }
@@ -201,6 +210,12 @@ fn attempt(
     report.cost = circle.cost;
     Some((vec![circle.arc], vec![Continuity::G3], true))
 }
+
+/// A cycle may cost this many times what a circle does: refinement can bring it below.
+const REFINED: f64 = 2.0;
+
+/// Most cycles that are merged.
+const RING_ROUNDS: usize = 3;
 
 /// A merged ring that costs more than this many times what its path did was misjudged.
 const SURPRISE: f64 = 1.5;

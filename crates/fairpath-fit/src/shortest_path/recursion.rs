@@ -8,7 +8,8 @@
 //! A closed chain adds four equations, that the last end is the first start. They are carried through the recursion with
 //! the first state and their multipliers as parameters.
 
-use super::chain::{Chain, HEADING, KAPPA0, KAPPA1, LENGTH, Measured, Piece, PieceNormal, Q, end, end_with_jacobian};
+use super::chain::{Chain, HEADING, KAPPA0, KAPPA1, Measured, Piece, PieceNormal, Q, end, end_with_jacobian};
+use super::controls::{Role, control_bounds, first_bounds, reach, roles};
 use crate::linear::{cholesky, solve, solve_lower, solve_upper};
 use fairpath_curve::{Continuity, Kind};
 use std::f64::consts::TAU;
@@ -18,11 +19,6 @@ const STATE: usize = 4;
 /// State and parameters of an open and of a closed chain; the latter carries the first state and the multipliers of closure.
 pub(crate) const OPEN: usize = STATE;
 pub(crate) const CLOSED: usize = STATE + 8;
-
-/// Shortest length of a piece, px.
-const MIN_LENGTH: f64 = 1.0;
-/// Largest curvature, radians per px.
-pub(crate) const MAX_CURVATURE: f64 = 1.0;
 
 /// How a heading and a curvature gap compare to one in position, px and px².
 pub(crate) const GAP_SCALE: [f64; 4] = [1.0, 1.0, 20.0, 200.0];
@@ -43,15 +39,6 @@ struct Law<const Z: usize> {
 
 /// Which controls of a piece are held at their bounds.
 pub(crate) type Held = [bool; Q];
-
-/// Where each parameter of a piece comes from.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-enum Role {
-    State,
-    Control,
-    /// Zero or equal to another.
-    Fixed,
-}
 
 /// Quadratic model `½ zᵀ h z + gᵀ z` of the cost to go.
 #[derive(Clone, Copy)]
@@ -110,66 +97,6 @@ impl Closure {
         }
         self.gap(pieces).iter().zip(GAP_SCALE).map(|(g, w)| g.abs() * w).sum()
     }
-}
-
-/// Where the parameters of piece `k` come from.
-fn roles(chain: &Chain, k: usize) -> [Role; Q] {
-    let n = chain.pieces.len();
-    let piece = &chain.pieces[k];
-    let before = if k > 0 { Some(chain.joins[k - 1]) } else { None };
-    let after = chain.joins.get(k).copied();
-    let line = piece.kind == Kind::Line;
-    let mut r = [Role::State; Q];
-    if before == Some(Continuity::G0) {
-        r[HEADING] = Role::Control;
-    }
-    let seam_with_line =
-        k == 0 && chain.closed && chain.joins[n - 1] >= Continuity::G2 && chain.pieces[n - 1].kind == Kind::Line;
-    r[KAPPA0] = if line || seam_with_line {
-        Role::Fixed
-    } else if before.is_some_and(|j| j < Continuity::G2) {
-        Role::Control
-    } else {
-        Role::State
-    };
-    let flat_after = after.is_some_and(|j| j >= Continuity::G2) && chain.pieces[(k + 1) % n].kind == Kind::Line;
-    r[KAPPA1] = if piece.kind == Kind::Clothoid && !flat_after { Role::Control } else { Role::Fixed };
-    r[LENGTH] = Role::Control;
-    r
-}
-
-/// Least and largest value of a control.
-fn bounds(piece: &Piece, after: Option<&Piece>, joined: bool, index: usize) -> (f64, f64) {
-    match index {
-        LENGTH => (MIN_LENGTH, piece.longest),
-        KAPPA0 | KAPPA1 => {
-            let mut range = (-MAX_CURVATURE, MAX_CURVATURE);
-            let mut keep = |sign: i8| match sign {
-                1 => range.0 = 0.0,
-                -1 => range.1 = 0.0,
-                _ => {}
-            };
-            if index == KAPPA0 {
-                keep(piece.sign[0]);
-                if piece.kind == Kind::Arc {
-                    keep(piece.sign[1]);
-                }
-            } else {
-                keep(piece.sign[1]);
-                if let (true, Some(next)) = (joined, after) {
-                    keep(next.sign[0]);
-                }
-            }
-            range
-        }
-        _ => (f64::NEG_INFINITY, f64::INFINITY),
-    }
-}
-
-fn control_bounds(chain: &Chain, k: usize, index: usize) -> (f64, f64) {
-    let n = chain.pieces.len();
-    let joined = chain.joins.get(k).is_some_and(|j| *j >= Continuity::G2);
-    bounds(&chain.pieces[k], Some(&chain.pieces[(k + 1) % n]), joined, index)
 }
 
 /// What a backward pass decides.
@@ -384,17 +311,6 @@ impl<const Z: usize> Stage<Z> {
 /// Energy that letting go of a held control must promise, px³.
 const WORTH_LETTING_GO: f64 = 1e-2;
 
-/// How far a parameter may change in one round without leaving what its derivatives can foresee.
-fn reach(piece: &Piece, index: usize) -> f64 {
-    let length = piece.q[LENGTH];
-    match index {
-        LENGTH => 0.2 * length + 1.0,
-        KAPPA0 | KAPPA1 => 0.3 / length + 0.1 * piece.q[index].abs(),
-        HEADING => 0.3,
-        _ => 3.0,
-    }
-}
-
 /// Stiffness that every control has by itself, against pieces that no datum holds.
 const FLOOR: [f64; Q] = [1e-6, 1e-6, 1e-3, 1e-1, 1e-1, 1e-6];
 
@@ -491,10 +407,6 @@ fn first_state<const Z: usize>(
         }
         return Some((z, multipliers));
     }
-}
-
-fn first_bounds(chain: &Chain) -> (f64, f64) {
-    bounds(&chain.pieces[0], None, false, KAPPA0)
 }
 
 /// The chain that the plan leads to from the pieces `old`, and which controls it found at their bounds. A full step closes all

@@ -6,7 +6,7 @@
 
 use super::candidates::{deviation, mergeable, penalty};
 use super::chain::{Chain, KAPPA0, KAPPA1, LENGTH, Measured, Piece, Pin, end};
-use super::merge::{Effort, is_hopeful, merge, merge_while};
+use super::merge::{Effort, Verdict, is_hopeful, merge, merge_until};
 use super::transition::possible;
 use crate::options::FitOptions;
 use crate::primitive_fit::{refine as fit_freely, walk_line};
@@ -148,7 +148,11 @@ fn changes(chain: &Chain, measured: &Measured, k: usize, options: &FitOptions) -
         let (a, b) = (&chain.pieces[k], &chain.pieces[k + 1]);
         let data = span(measured, k..k + 2);
         for (kind, price) in kinds {
-            if let (Some(price), Some(piece)) = (price, united(chain, (a, b), kind, data.clone(), options)) {
+            // A fit is made only where a perfect one would do.
+            if let Some(price) = price
+                && both - price > PROMISING
+                && let Some(piece) = united(chain, (a, b), kind, data.clone(), options)
+            {
                 let promise = both - price - penalty(piece.1, options);
                 if promise > PROMISING {
                     out.push(Change { range: k..k + 2, with: vec![piece.0], level: Continuity::G2, promise });
@@ -160,8 +164,9 @@ fn changes(chain: &Chain, measured: &Measured, k: usize, options: &FitOptions) -
     for (kind, price) in kinds {
         let piece = &chain.pieces[k];
         if simplicity(kind) < simplicity(piece.kind)
-            && let (Some(price), Some(simpler)) =
-                (price, united(chain, (piece, piece), kind, span(measured, k..k + 1), options))
+            && let Some(price) = price
+            && own - price > PROMISING
+            && let Some(simpler) = united(chain, (piece, piece), kind, span(measured, k..k + 1), options)
         {
             let promise = own - price - penalty(simpler.1, options);
             if promise > PROMISING {
@@ -354,8 +359,10 @@ fn tried(chain: &Chain, measured: &Measured, change: &Change, options: &FitOptio
     }
     let errors = measured.normals[window.clone()].iter().map(|n| n.deviation(options));
     let before = cost(&chain.pieces[window.clone()], errors, options);
-    let promising = |part: &Chain, now: &Measured, round: usize| is_hopeful(total(part, now, options) - before, round);
-    let mut result = merge_while(&mut part, TRY, promising)?;
+    let judge = |part: &Chain, now: &Measured, round: usize| {
+        if is_hopeful(total(part, now, options) - before, round) { Verdict::GoOn } else { Verdict::Hopeless }
+    };
+    let mut result = merge_until(&mut part, TRY, judge)?;
     let gain = before - total(&part, &result, options);
     for normal in &mut result.normals {
         if normal.span.0 < normal.span.1 {

@@ -3,10 +3,11 @@
 
 use super::a_star::a_star;
 use super::candidates::{Candidate, penalty};
-use super::chain::{Chain, Piece, Shortness};
+use super::chain::{Chain, Measured, Piece, Shortness};
 use super::cycle::shortest_cycle;
-use super::graph::{Distances, Edge, Goal, Graph, Node, Path};
-use super::merge::{Effort, merge};
+use super::distances::{Distances, Goal};
+use super::graph::{Edge, Graph, Node, Path};
+use super::merge::{Effort, Verdict, merge_until};
 use super::transition::overlap;
 use crate::options::{ClosedSearch, FitOptions, Search};
 use crate::track::{Course, Shape, Track};
@@ -173,10 +174,16 @@ fn verify(graph: &Graph, edge: Edge, track: &Track, options: &FitOptions) -> f64
     let ends = [edge.from, edge.to].map(|i| graph.nodes[i as usize]);
     let (u, v) = (&graph.candidates[ends[0].candidate as usize], &graph.candidates[ends[1].candidate as usize]);
     let mut chain = chain(graph.candidates, &ends, vec![edge.level], None, &track.coarse, options);
-    let Some(measured) = merge(&mut chain, VERIFY) else { return f64::INFINITY };
-    let (a, b) = (measured.normals[0].deviation(options), measured.normals[1].deviation(options));
-    (penalty(a, options) - penalty(u.error, options)).max(0.0)
-        + (penalty(b, options) - penalty(v.error, options)).max(0.0)
+    let extra = |measured: &Measured| {
+        let (a, b) = (measured.normals[0].deviation(options), measured.normals[1].deviation(options));
+        (penalty(a, options) - u.penalty).max(0.0) + (penalty(b, options) - v.penalty).max(0.0)
+    };
+    // Below the estimate it does not matter by how much.
+    let expected = graph.expected_deviation(edge);
+    let judge = |_: &Chain, measured: &Measured, _: usize| {
+        if extra(measured) <= expected { Verdict::Enough } else { Verdict::GoOn }
+    };
+    merge_until(&mut chain, VERIFY, judge).map_or(f64::INFINITY, |measured| extra(&measured))
 }
 
 /// The chain of a sequence of nodes, each trimmed to the middle of its overlaps (section 3.6), along the points of `course`. If it is

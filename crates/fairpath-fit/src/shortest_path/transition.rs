@@ -25,9 +25,16 @@ pub(crate) fn overlap(level: Continuity, options: &FitOptions) -> usize {
 /// Extra cost of deviation, `p(τ'₁) − p(τ₁) + p(τ'₂) − p(τ₂)`, that enforcing the join is expected to bring; nothing if it would
 /// move both candidates too far.
 pub(crate) fn estimate(u: &Candidate, v: &Candidate, level: Continuity, options: &FitOptions) -> Option<f64> {
-    let (eu, ev) = match options.transitions {
-        Transitions::Covariance => by_covariance(u, v, level, options),
-        Transitions::Paper => by_mismatch(u, v, level, options),
+    let (eu, ev) = match (options.transitions, overlap(level, options)) {
+        (Transitions::Covariance, 0) => by_covariance([(u, &u.tail[0]), (v, &v.head[0])], level),
+        (Transitions::Covariance, 1) => {
+            let [first, second] =
+                [(1, 0), (0, 1)].map(|(a, b)| by_covariance([(u, &u.tail[a]), (v, &v.head[b])], level));
+            let cost = |e: (f64, f64)| penalty(e.0, options) + penalty(e.1, options);
+            if cost(second) < cost(first) { second } else { first }
+        }
+        (Transitions::Covariance, _) => by_covariance([(u, &u.tail[1]), (v, &v.head[1])], level),
+        (Transitions::Paper, _) => by_mismatch(u, v, level, options),
     };
     if !(eu <= options.max_join_error || ev <= options.max_join_error) {
         return None;
@@ -105,52 +112,46 @@ fn meeting<'a>(
 /// Moving a fit by x costs `xᵀ H x`. The least cost of closing a gap g in position, heading and curvature is `gᵀ S⁻¹ g`, where S is the
 /// sum of both ends' covariances, and it falls to the two in the ratio of `λᵀ S₁ λ` to `λᵀ S₂ λ`, `λ = S⁻¹ g`. The place of the join may
 /// slide along the overlap.
-fn by_covariance(u: &Candidate, v: &Candidate, level: Continuity, options: &FitOptions) -> (f64, f64) {
-    let mut best = (f64::INFINITY, f64::INFINITY);
-    let slope = v.primitive.sharpness - u.primitive.sharpness;
+#[inline]
+fn by_covariance([(u, a), (v, b)]: [(&Candidate, &JoinState); 2], level: Continuity) -> (f64, f64) {
     let dimensions = level as usize + 1;
-    for (a, b) in meeting(u, v, overlap(level, options)) {
-        let turn = a.turn_to(b);
-        let bend = b.curvature - a.curvature;
-        let gap = [a.offset - b.offset, turn, bend];
-        let s: [f64; 6] = std::array::from_fn(|i| a.covariance[i] + b.covariance[i]);
-        // S = L D Lᵀ. Dimensions that the join does not fix are left out by giving them no weight.
-        let (d0, s11, s22) = (s[0] + FIRMNESS[0], s[3] + FIRMNESS[1], s[5] + FIRMNESS[2]);
-        let (r0, l10, l20) = (1.0 / d0, s[1] / d0, s[2] / d0);
-        let d1 = s11 - l10 * s[1];
-        let e = s[4] - l20 * s[1];
-        let r1 = if dimensions > 1 { 1.0 / d1 } else { 0.0 };
-        let l21 = e * r1;
-        let d2 = s22 - l20 * s[2] - l21 * e;
-        let r2 = if dimensions > 2 { 1.0 / d2 } else { 0.0 };
-        if !(d0 > 0.0 && (dimensions < 2 || d1 > 1e-13 * s11) && (dimensions < 3 || d2 > 1e-13 * s22)) {
-            continue;
-        }
-        let reduced = |g: [f64; 3]| {
-            let y1 = g[1] - l10 * g[0];
-            [g[0], y1, g[2] - l20 * g[0] - l21 * y1]
-        };
-        // Sliding by t adds t times the next derivative; the best t is a least-squares one.
-        let (still, drift) = (reduced(gap), reduced([turn, bend, slope]));
-        let top = still[0] * drift[0] * r0 + still[1] * drift[1] * r1 + still[2] * drift[2] * r2;
-        let bottom = drift[0] * drift[0] * r0 + drift[1] * drift[1] * r1 + drift[2] * drift[2] * r2;
-        let reach = u.slide.min(v.slide);
-        let slide = if bottom > 0.0 { (-top / bottom).clamp(-reach, reach) } else { 0.0 };
-        let z = (still[2] + slide * drift[2]) * r2;
-        let y = (still[1] + slide * drift[1]) * r1 - l21 * z;
-        let x = (still[0] + slide * drift[0]) * r0 - l10 * y - l20 * z;
-        let after = |c: &Candidate, s: &[f64; 6]| {
-            let energy = x * (s[0] * x + 2.0 * (s[1] * y + s[2] * z)) + y * (s[3] * y + 2.0 * s[4] * z) + z * s[5] * z;
-            (c.error * c.error + c.spread * energy).sqrt()
-        };
-        let (eu, ev) = (after(u, &a.covariance), after(v, &b.covariance));
-        if penalty(eu, options) + penalty(ev, options) < penalty(best.0, options) + penalty(best.1, options)
-            || best.0.is_infinite()
-        {
-            best = (eu, ev);
-        }
+    let slope = v.primitive.sharpness - u.primitive.sharpness;
+    let turn = a.turn_to(b);
+    let bend = b.curvature - a.curvature;
+    let s: [f64; 6] = std::array::from_fn(|i| a.covariance[i] + b.covariance[i]);
+    // S = L D Lᵀ. Dimensions that the join does not fix are left out by giving them no weight.
+    let (d0, s11, s22) = (s[0] + FIRMNESS[0], s[3] + FIRMNESS[1], s[5] + FIRMNESS[2]);
+    let r0 = 1.0 / d0;
+    let (l10, l20) = (s[1] * r0, s[2] * r0);
+    let d1 = s11 - l10 * s[1];
+    let e = s[4] - l20 * s[1];
+    let r1 = if dimensions > 1 { 1.0 / d1 } else { 0.0 };
+    let l21 = e * r1;
+    let d2 = s22 - l20 * s[2] - l21 * e;
+    let r2 = if dimensions > 2 { 1.0 / d2 } else { 0.0 };
+    if !(d0 > 0.0 && (dimensions < 2 || d1 > 1e-13 * s11) && (dimensions < 3 || d2 > 1e-13 * s22)) {
+        return (f64::INFINITY, f64::INFINITY);
     }
-    best
+    let reduced = |g: [f64; 3]| {
+        let y1 = g[1] - l10 * g[0];
+        [g[0], y1, g[2] - l20 * g[0] - l21 * y1]
+    };
+    // Sliding by t adds t times the next derivative; the best t is a least-squares one.
+    let (still, drift) = (reduced([a.offset - b.offset, turn, bend]), reduced([turn, bend, slope]));
+    let weighted = [drift[0] * r0, drift[1] * r1, drift[2] * r2];
+    let top = still[0] * weighted[0] + still[1] * weighted[1] + still[2] * weighted[2];
+    let bottom = drift[0] * weighted[0] + drift[1] * weighted[1] + drift[2] * weighted[2];
+    let reach = u.slide.min(v.slide);
+    let slide = if bottom > 0.0 { (-top / bottom).clamp(-reach, reach) } else { 0.0 };
+    let z = (still[2] + slide * drift[2]) * r2;
+    let y = (still[1] + slide * drift[1]) * r1 - l21 * z;
+    let x = (still[0] + slide * drift[0]) * r0 - l10 * y - l20 * z;
+    let [xx, xy, xz, yy, yz, zz] = [x * x, 2.0 * x * y, 2.0 * x * z, y * y, 2.0 * y * z, z * z];
+    let after = |c: &Candidate, s: &[f64; 6]| {
+        let energy = s[0] * xx + s[1] * xy + s[2] * xz + s[3] * yy + s[4] * yz + s[5] * zz;
+        (c.error * c.error + c.spread * energy).sqrt()
+    };
+    (after(u, &a.covariance), after(v, &b.covariance))
 }
 
 /// Variances added so that two fits which their data determine fully can still be compared.
