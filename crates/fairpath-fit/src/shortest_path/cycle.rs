@@ -43,15 +43,21 @@ pub(crate) fn shortest_cycle(graph: &mut Graph, verifier: &mut Verifier, below: 
     search.best.map(|cycle| from_longest(search.graph, cycle))
 }
 
-/// The cycle begun at its longest node: later steps change nothing across the seam, and there they would least want to.
+/// The cycle begun at one of its longest nodes: later steps look across the seam last, and there they would least want to.
 fn from_longest(graph: &Graph, mut cycle: Path) -> Path {
-    let length = |i: &u32| graph.candidates[graph.nodes[*i as usize].candidate as usize].length;
-    let nodes = cycle.nodes.iter().enumerate();
-    let longest = nodes.max_by(|a, b| length(a.1).total_cmp(&length(b.1))).map_or(0, |n| n.0);
-    cycle.nodes.rotate_left(longest);
-    cycle.joins.rotate_left(longest);
+    let node = |i: u32| &graph.nodes[i as usize];
+    let length = |i: u32| graph.candidates[node(i).candidate as usize].length;
+    let longest = cycle.nodes.iter().fold(0.0_f64, |m, &i| m.max(length(i)));
+    // Rounding must not choose between the sides of a square.
+    let long = (0..cycle.nodes.len()).filter(|&k| length(cycle.nodes[k]) >= NEARLY * longest);
+    let begin = long.min_by_key(|&k| node(cycle.nodes[k]).first).unwrap_or(0);
+    cycle.nodes.rotate_left(begin);
+    cycle.joins.rotate_left(begin);
     cycle
 }
+
+/// Share of the longest length that is as good.
+const NEARLY: f64 = 0.8;
 
 struct Search<'a, 'g, 'v> {
     graph: &'a mut Graph<'g>,

@@ -256,12 +256,14 @@ fn merge_path(graph: &Graph, path: &Path, track: &Track, options: &FitOptions) -
         let mut coarse = along(&track.coarse, joins);
         let measured = merge(&mut coarse, FINAL)?;
         let measured = refine::refine(&mut coarse, measured, options, FINAL)?;
+        let before = refine::total(&coarse, &measured, options);
         let smooth = track.shape == Shape::Ring && !coarse.joins.contains(&Continuity::G0);
         // What lies at the seam is looked at once more from the other side.
         if smooth && let Some((other, begin)) = half_round(&coarse, &measured, &track.coarse, nodes[0].first as usize) {
             let mut other = other;
             if let Some(measured) = merge(&mut other, FINAL)
-                && refine::refine(&mut other, measured, options, FINAL).is_some()
+                && let Some(again) = refine::refine(&mut other, measured, options, FINAL)
+                && refine::total(&other, &again, options) < before - SEAM_GAIN
             {
                 let from = track.all.data.partition_point(|d| d.s < begin);
                 chain.data = &track.all.data[from..from + chain.data.len()];
@@ -274,6 +276,9 @@ fn merge_path(graph: &Graph, path: &Path, track: &Track, options: &FitOptions) -
     let cost = refine::total(&chain, &measured, options);
     Some(Merged { parts: (chain.pieces.iter().map(chain::Piece::segment).collect(), chain.joins, closed), cost })
 }
+
+/// What a second look must gain, in units of cost: less would be left to rounding.
+const SEAM_GAIN: f64 = 3.0;
 
 /// A ring's chain, which begins at sample `first`, begun half its pieces later, and the arc length along the track where that is, px.
 fn half_round<'a>(
