@@ -108,7 +108,7 @@ fn grain(points: &[Vec2]) -> f64 {
 }
 
 /// Length on each side over which a staircase is averaged, in its steps.
-const AVERAGED: f64 = 1.25;
+const AVERAGED: f64 = 1.0;
 
 /// The polyline averaged over the length `reach` on each side of every vertex, less near the ends, which stay.
 fn smoothed(points: Vec<Vec2>, reach: f64) -> Vec<Vec2> {

@@ -21,7 +21,7 @@ const FINEST: f64 = 0.45;
 const MOST_POINTS: f64 = 40_000.0;
 
 /// Tremor that comes with steps of a given size, as a share of it, and the smallest neighbourhood in such steps.
-const GRAIN_NOISE: f64 = 0.35;
+const GRAIN_NOISE: f64 = 0.25;
 const GRAIN_WINDOW: f64 = 4.5;
 
 /// Share of the least corner angle that must show in the narrowest neighbourhood before a place is looked at closely.
