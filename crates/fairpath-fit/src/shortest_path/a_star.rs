@@ -126,11 +126,11 @@ fn explore(
         }
         for (level, base) in graph.levels(end) {
             let overlap = overlap(level, graph.options);
-            if this.span() <= overlap {
+            if this.span() <= overlap || end < distances.origin + overlap {
                 continue;
             }
             let next_start = end - overlap;
-            if next_start < distances.origin || next_start >= distances.target {
+            if next_start >= distances.target {
                 continue;
             }
             for &next in &distances.order[next_start % distances.turn] {

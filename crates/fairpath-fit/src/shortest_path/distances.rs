@@ -157,11 +157,11 @@ impl Distances {
         let (mut best, mut onward) = (f64::INFINITY, Onward::Nowhere);
         for (level, base) in graph.levels(end) {
             let overlap = overlap(level, graph.options);
-            if this.span() <= overlap {
+            if this.span() <= overlap || end < self.origin + overlap {
                 continue;
             }
             let next_start = end - overlap;
-            if next_start < self.origin || next_start >= self.target {
+            if next_start >= self.target {
                 continue;
             }
             for &next in &self.order[next_start % self.turn] {

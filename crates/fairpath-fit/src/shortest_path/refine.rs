@@ -24,7 +24,7 @@ const NEIGHBOURS: usize = 2;
 const WORTHWHILE: f64 = 0.5;
 
 /// What a change must gain if the joins cost nothing before it is tried.
-const PROMISING: f64 = 3.0;
+const PROMISING: f64 = 7.0;
 
 /// Most passes over the chain.
 const PASSES: usize = 3;
