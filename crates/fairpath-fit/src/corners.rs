@@ -84,84 +84,51 @@ pub(crate) fn corners(line: &Polyline, closed: bool, grain: f64, options: &FitOp
         }
     }
     kept.sort_unstable();
-    let bend = Bend { line, closed, clear: fineness * CLEAR };
-    let bends = |&s: &f64| {
-        let radius = bend.rounding(s, fineness * SIDE, options);
-        radius.is_some_and(|radius| radius >= options.corner_radius)
+    kept.into_iter()
+        .map(|i| spacing * i as f64)
+        .filter(|&s| rounding(line, s, closed, fineness, options).is_none_or(|radius| radius < options.corner_radius))
+        .collect()
+}
+
+/// The radius to which the stroke is rounded at a corner, px; nothing if it stays within the tremor of a sharp one.
+///
+/// Both sides are prolonged from beyond the rounding. A sharp corner has its vertices on one side or the other; a round one turned by θ
+/// passes at `r (1 − cos ½θ)` inside of both.
+fn rounding(line: &Polyline, corner: f64, closed: bool, fineness: f64, options: &FitOptions) -> Option<f64> {
+    let length = line.length();
+    let clear = fineness * CLEAR;
+    let at = |s: f64| {
+        let s = if closed { s.rem_euclid(length) } else { s };
+        line.at(s, &mut line.s.partition_point(|&v| v <= s).saturating_sub(1))
     };
-    let mut corners: Vec<f64> = kept.into_iter().map(|i| spacing * i as f64).filter(|s| !bends(s)).collect();
-    // A vertex of a staircase tells nothing of where the corner is.
-    if grain == 0.0 {
-        for s in &mut corners {
-            *s = bend.sharpest(*s);
-        }
-        corners.sort_unstable_by(f64::total_cmp);
-        corners.dedup();
+    let side = |direction: f64| {
+        let run: Vec<Datum> = (0..SIDE_POINTS)
+            .map(|j| clear + fineness * SIDE * j as f64 / (SIDE_POINTS - 1) as f64)
+            .filter(|away| closed || (0.0..=length).contains(&(corner + direction * away)))
+            .map(|away| Datum { point: at(corner + direction * away), s: away, weight: 1.0 })
+            .collect();
+        (run.len() >= MIN_SIDE).then(|| line_or_arc(&run, options.corner_noise * options.corner_noise).primitive)
+    };
+    let sides = [side(-1.0)?, side(1.0)?];
+    let between = |low: f64, high: f64| line.s.partition_point(|&s| s <= low)..line.s.partition_point(|&s| s < high);
+    let mut near: Vec<usize> = between(corner - clear, corner + clear).collect();
+    if closed {
+        near.extend(between(corner - clear + length, length));
+        near.extend(between(0.0, corner + clear - length));
     }
-    corners
-}
-
-/// The stroke's own vertices near a corner.
-struct Bend<'a> {
-    line: &'a Polyline,
-    closed: bool,
-    /// As far as this from the corner, px.
-    clear: f64,
-}
-
-impl Bend<'_> {
-    fn at(&self, s: f64) -> Vec2 {
-        let s = if self.closed { s.rem_euclid(self.line.length()) } else { s };
-        self.line.at(s, &mut self.line.s.partition_point(|&v| v <= s).saturating_sub(1))
+    let turn_at = |i: usize| {
+        let (s, p) = (line.s[i], line.points[i]);
+        turn_between(p - at(s - STEP), at(s + STEP) - p)
+    };
+    if near.iter().any(|&i| turn_at(i) > SHARP) {
+        return None;
     }
-
-    fn vertices(&self, corner: f64) -> Vec<usize> {
-        let (s, length) = (&self.line.s, self.line.length());
-        let between = |low: f64, high: f64| s.partition_point(|&s| s <= low)..s.partition_point(|&s| s < high);
-        let mut near: Vec<usize> = between(corner - self.clear, corner + self.clear).collect();
-        if self.closed {
-            near.extend(between(corner - self.clear + length, length));
-            near.extend(between(0.0, corner + self.clear - length));
-        }
-        near
-    }
-
-    /// The angle by which the stroke turns at a vertex, radians.
-    fn turn(&self, vertex: usize) -> f64 {
-        let (s, p) = (self.line.s[vertex], self.line.points[vertex]);
-        turn_between(p - self.at(s - STEP), self.at(s + STEP) - p)
-    }
-
-    /// Where the stroke turns most near a corner, if it has a tip there.
-    fn sharpest(&self, corner: f64) -> f64 {
-        let turns = self.vertices(corner).into_iter().map(|i| (self.turn(i), self.line.s[i]));
-        turns.filter(|t| t.0 > TIP).max_by(|a, b| a.0.total_cmp(&b.0)).map_or(corner, |t| t.1)
-    }
-
-    /// The radius to which the stroke is rounded at a corner, px; nothing if it stays within the tremor of a sharp one.
-    ///
-    /// Both sides, which are `reach` long, are prolonged from beyond the rounding. A sharp corner has its vertices on one side or the
-    /// other; a round one turned by θ passes at `r (1 − cos ½θ)` inside of both.
-    fn rounding(&self, corner: f64, reach: f64, options: &FitOptions) -> Option<f64> {
-        let side = |direction: f64| {
-            let run: Vec<Datum> = (0..SIDE_POINTS)
-                .map(|j| self.clear + reach * j as f64 / (SIDE_POINTS - 1) as f64)
-                .filter(|away| self.closed || (0.0..=self.line.length()).contains(&(corner + direction * away)))
-                .map(|away| Datum { point: self.at(corner + direction * away), s: away, weight: 1.0 })
-                .collect();
-            (run.len() >= MIN_SIDE).then(|| line_or_arc(&run, options.corner_noise * options.corner_noise).primitive)
-        };
-        let sides = [side(-1.0)?, side(1.0)?];
-        let vertices = self.vertices(corner);
-        if vertices.iter().any(|&i| self.turn(i) > SHARP) {
-            return None;
-        }
-        let off = |side: &Primitive, p: Vec2| Walker::new(side).project(p).distance.abs();
-        let inside = |p: Vec2| off(&sides[0], p).min(off(&sides[1], p));
-        let most = vertices.into_iter().map(|i| inside(self.line.points[i])).fold(0.0, f64::max);
-        let turn = trig::wrap_angle(sides[1].heading - sides[0].heading - std::f64::consts::PI);
-        (most > TREMOR * options.corner_noise).then(|| most / (1.0 - trig::sin_cos(0.5 * turn).1))
-    }
+    let vertices = near.iter().map(|&i| line.points[i]);
+    let inside =
+        |p: Vec2| sides.map(|side| Walker::new(&side).project(p).distance.abs()).into_iter().fold(f64::MAX, f64::min);
+    let most = vertices.map(inside).fold(0.0, f64::max);
+    let turn = trig::wrap_angle(sides[1].heading - sides[0].heading - std::f64::consts::PI);
+    (most > TREMOR * options.corner_noise).then(|| most / (1.0 - trig::sin_cos(0.5 * turn).1))
 }
 
 /// Distance from a corner at which its sides are taken to begin, and their length, px.
@@ -173,9 +140,6 @@ const SIDE_POINTS: usize = 9;
 /// is spread.
 const SHARP: f64 = 1.0;
 const STEP: f64 = 2.5;
-
-/// A vertex at which it turns by more than this is the tip of the corner, radians.
-const TIP: f64 = 1.3;
 
 /// A vertex further from both sides than this many times the tremor tells of a rounding.
 const TREMOR: f64 = 2.5;
