@@ -27,7 +27,7 @@ const WORTHWHILE: f64 = 0.5;
 const PROMISING: f64 = 7.0;
 
 /// Most passes over the chain.
-const PASSES: usize = 3;
+const PASSES: usize = 2;
 
 /// Improves the chain; gives its measurement.
 pub(crate) fn refine(chain: &mut Chain, measured: Measured, options: &FitOptions, last: Effort) -> Option<Measured> {
