@@ -14,7 +14,7 @@ pub(crate) struct Rate {
 }
 
 /// Neighbourhood on each side for curvature, in steps of a staircase.
-const GRAIN_WINDOW: f64 = 5.0;
+const GRAIN_WINDOW: f64 = 6.0;
 
 /// Points on a lattice lie exactly on the border of a window: rounding may not decide on which side, px.
 const HAIR: f64 = 1e-6;
