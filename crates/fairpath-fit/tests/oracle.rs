@@ -80,8 +80,8 @@ fn the_error_of_a_candidate_is_the_largest_distance_of_its_samples() {
         }
         off.sort_by(f64::total_cmp);
         if let Some(typical) = off.get(off.len() / 2) {
-            // On a staircase of 4 px its steps stand out by more than a pixel.
-            assert!(*typical < 1.5, "{name}: errors are {typical} px larger than the distances of the samples");
+            // On a staircase of 4 px, sampled further apart than that, its steps stand out by two pixels.
+            assert!(*typical < 2.5, "{name}: errors are {typical} px larger than the distances of the samples");
         }
     });
     assert!(n >= 4, "{n} strokes");
