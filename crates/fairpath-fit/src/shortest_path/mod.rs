@@ -94,7 +94,6 @@ fn closer(options: &FitOptions) -> FitOptions {
         inflection_cost: 0.25 * options.inflection_cost,
         shortness_cost: 0.25 * options.shortness_cost,
         corner_score: 0.5 * options.corner_score,
-        corner_noise: 0.5 * options.corner_noise,
         max_error: 0.7 * options.max_error,
         ..options.clone()
     }
