@@ -127,7 +127,7 @@ fn a_ring_closes_smoothly_or_says_that_it_does_not() {
 fn a_target_is_met_with_more_pieces() {
     let points: Vec<Point> =
         (0..120).map(|i| f64::from(i) * 4.0).map(|x| Point::new(x, 40.0 * (x / 35.0).sin())).collect();
-    let loose = CurvatureSpaceOptions { piece_cost: 4.0, ..options(Mode::Refined) };
+    let loose = CurvatureSpaceOptions { piece_cost: 4.0, target_error: None, ..options(Mode::Refined) };
     let rough = fitted(points.clone(), &loose);
     let close = fitted(points, &CurvatureSpaceOptions { target_error: Some(1.0), ..loose });
     assert!(close.report.max_deviation <= 1.0, "{}", close.report.max_deviation);

@@ -38,12 +38,12 @@ pub(crate) fn fit(stroke: &Stroke, options: &CurvatureSpaceOptions) -> Result<Fi
     Ok(if backward { turned_round(fit) } else { fit })
 }
 
-/// Fits with a cost of pieces that is halved until the target is met (section 6).
+/// Fits with a cost of pieces that is lowered until the target is met (section 6).
 fn to_target(stroke: &Stroke, cleaned: &Cleaned, options: &CurvatureSpaceOptions) -> Result<Fit, FitError> {
     let Ground { track, stretches } = &Ground::of(cleaned, options);
     let mut piece_cost = options.piece_cost;
     let mut best: Option<Fit> = None;
-    for _ in 0..if options.target_error.is_some() { HALVINGS } else { 1 } {
+    for _ in 0..if options.target_error.is_some() { LOWERED } else { 1 } {
         let fit = solve(stroke, cleaned, track, stretches, piece_cost, options)?;
         // More pieces must be worth it: tremor does not yield to them.
         if best.as_ref().is_none_or(|b| fit.report.max_deviation < WORTH * b.report.max_deviation) {
@@ -53,13 +53,14 @@ fn to_target(stroke: &Stroke, cleaned: &Cleaned, options: &CurvatureSpaceOptions
         if options.target_error.is_none_or(|target| reached <= target * options.pixel_size) {
             break;
         }
-        piece_cost *= 0.5;
+        piece_cost *= LOWER;
     }
     best.ok_or(FitError::Unfittable { points: stroke.points.len() })
 }
 
-/// How often the cost of a piece is halved at most: a thousandth of it makes a piece of nearly every place.
-const HALVINGS: usize = 11;
+/// By how much the cost of a piece is lowered at once, and how often at most: a thousandth of it makes a piece of nearly every place.
+const LOWER: f64 = 0.7;
+const LOWERED: usize = 20;
 
 /// A curve of more pieces replaces one of fewer if its largest deviation is at most this share of the other's.
 const WORTH: f64 = 0.9;
@@ -233,7 +234,7 @@ fn whole_circle(track: &Track, profiles: &[Profile], options: &CurvatureSpaceOpt
         return None;
     }
     let found = circle(track, &FitOptions { arc_cost: Some(0.0), ..options.shared() })?;
-    let enough = options.target_error.unwrap_or(ROUND * options.max_error);
+    let enough = options.target_error.unwrap_or(f64::INFINITY).min(ROUND * options.max_error);
     (found.largest <= enough).then(|| (vec![found.arc], vec![Continuity::G3], true))
 }
 

@@ -61,7 +61,7 @@ pub struct CurvatureSpaceOptions {
     /// Weight of ends and corners relative to other points when the curve is laid over the stroke (section 4.4).
     #[schemars(extend("unit" = "1"))]
     pub end_weight: f64,
-    /// Largest deviation to be reached by lowering `piece_cost` (section 6); null leaves the cost as it is.
+    /// Largest deviation to be reached by lowering `piece_cost` as long as that helps (section 6); null leaves the cost as it is.
     #[schemars(extend("unit" = "px"))]
     pub target_error: Option<f64>,
     /// A curve further than this from its stroke comes with a warning.
@@ -83,7 +83,7 @@ impl Default for CurvatureSpaceOptions {
             spacing: 4.0,
             piece_cost: 0.2,
             end_weight: 2.0,
-            target_error: None,
+            target_error: Some(5.0),
             max_error: shared.max_error,
         }
     }

@@ -15,7 +15,7 @@ use crate::walk::Datum;
 use fairpath_curve::{Continuity, Kind};
 
 /// Rounds that are enough for pieces which are nearly in place.
-const EFFORT: Effort = Effort { rounds: 20, tolerance: 1e-3 };
+const EFFORT: Effort = Effort { rounds: 40, tolerance: 1e-3 };
 
 /// Pieces shorter than this resist shortening, with this energy for the square of what is missing, px: else distances alone could make
 /// them vanish.
