@@ -1,7 +1,7 @@
 //! Fair curves from rough strokes: points in, a [`fairpath_curve::Spline`] of lines, arcs and clothoids with exact joins out, by the
-//! shortest-path method of Baran, Lehtinen and Popović (2010).
+//! shortest-path method of Baran, Lehtinen and Popović (2010) or in curvature space after McCrae and Singh (2008).
 //!
-//! - Fit a stroke: [`fit`]. Watch its steps or keep every intermediate result: [`fit_observed`].
+//! - Fit a stroke: [`fit`]; in curvature space: [`fit_curvature_space`]. Watch its steps or keep every intermediate result: [`fit_observed`].
 //! - Choose between fewer segments and less deviation: [`FitOptions::preset`], [`Preset`].
 //!
 //! ```
@@ -16,7 +16,9 @@
 
 mod clean;
 mod closure;
+mod conclude;
 mod corners;
+mod curvature_space;
 mod direction;
 mod hooks;
 mod linear;
@@ -30,6 +32,7 @@ mod stroke;
 mod track;
 mod walk;
 
+pub use curvature_space::{CurvatureEstimate, CurvatureSpaceOptions, Mode};
 pub use options::{ClosedSearch, Closing, Deviation, FitOptions, Preset, Resampling, Search, Transitions};
 pub use result::{Candidate, Fit, FitError, Observer, Report, Stages, Step, Warning};
 pub use stroke::Stroke;
@@ -56,4 +59,16 @@ pub fn fit_observed(
     stages: Option<&mut Stages>,
 ) -> Result<Fit, FitError> {
     shortest_path::fit(stroke, options, observer, stages)
+}
+
+/// The curve of a stroke with piecewise linear curvature (McCrae and Singh 2008), in the stroke's unit and frame: clothoids with G2 joins
+/// between corners. Lengths among the options are in px of `options.pixel_size` units.
+///
+/// Deviations are not bounded beforehand; the report states what was measured, and a warning says where it is large or where
+/// `target_error` could not be met. The report's cost is the minimum of equation 7 in radians; what it says of graphs stays zero.
+///
+/// # Errors
+/// As [`fit`].
+pub fn fit_curvature_space(stroke: &Stroke, options: &CurvatureSpaceOptions) -> Result<Fit, FitError> {
+    curvature_space::fit(stroke, options)
 }

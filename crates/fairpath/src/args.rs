@@ -52,7 +52,7 @@ pub struct FitArgs {
     #[arg(long)]
     pub flip_y: bool,
 
-    /// How to fit
+    /// How to fit: `shortest-path` (Baran, Lehtinen and Popović 2010) or `curvature-space` (McCrae and Singh 2008)
     #[arg(long, value_name = "METHOD", default_value = "shortest-path", value_parser = method)]
     pub method: Method,
 
@@ -155,6 +155,8 @@ pub enum Stats {
 pub enum Method {
     /// Baran, Lehtinen and Popović (2010).
     ShortestPath,
+    /// McCrae and Singh (2008).
+    CurvatureSpace,
 }
 
 impl Method {
@@ -163,19 +165,21 @@ impl Method {
     pub fn name(self) -> &'static str {
         match self {
             Self::ShortestPath => "shortest-path",
+            Self::CurvatureSpace => "curvature-space",
         }
     }
 }
 
 fn method(text: &str) -> Result<Method, String> {
-    if text == Method::ShortestPath.name() {
-        return Ok(Method::ShortestPath);
+    let methods = [Method::ShortestPath, Method::CurvatureSpace];
+    if let Some(method) = methods.into_iter().find(|method| method.name() == text) {
+        return Ok(method);
     }
     Err(match text {
-        "curvature-space" | "french-curve" | "laplacian" | "cubic" | "mvc" => {
-            format!("the method {text} is not part of this version; use shortest-path")
+        "french-curve" | "laplacian" | "cubic" | "mvc" => {
+            format!("the method {text} is not part of this version; use shortest-path or curvature-space")
         }
-        _ => "there is no method of that name; use shortest-path".to_owned(),
+        _ => "there is no method of that name; use shortest-path or curvature-space".to_owned(),
     })
 }
 

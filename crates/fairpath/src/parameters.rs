@@ -3,8 +3,9 @@
 use std::fmt;
 
 use anyhow::{Context, Result, anyhow, bail};
-use fairpath_fit::FitOptions;
-use serde::de::{Deserialize, Deserializer, IgnoredAny, MapAccess, Visitor};
+use schemars::JsonSchema;
+use serde::Serialize;
+use serde::de::{Deserialize, DeserializeOwned, Deserializer, IgnoredAny, MapAccess, Visitor};
 use serde_json::{Map, Value};
 
 /// A parameter as its schema describes it.
@@ -20,10 +21,10 @@ pub struct Parameter {
     pub kind: String,
 }
 
-/// Every parameter, in the order of its declaration.
+/// Every parameter of a method with these options, in the order of its declaration.
 #[must_use]
-pub fn all() -> Vec<Parameter> {
-    let schema = schemars::schema_for!(FitOptions).to_value();
+pub fn all<T: JsonSchema + Serialize + Default>() -> Vec<Parameter> {
+    let schema = schemars::schema_for!(T).to_value();
     let empty = Map::new();
     let properties = schema["properties"].as_object().unwrap_or(&empty);
     let mut list: Vec<Parameter> = properties
@@ -36,7 +37,7 @@ pub fn all() -> Vec<Parameter> {
         })
         .collect();
     // The schema sorts by name; the order of declaration groups what belongs together.
-    let declared = serde_json::to_string(&FitOptions::default()).unwrap_or_default();
+    let declared = serde_json::to_string(&T::default()).unwrap_or_default();
     if let Ok(Keys(keys)) = serde_json::from_str(&declared) {
         list.sort_by_key(|parameter| keys.iter().position(|name| *name == parameter.name));
     }
@@ -72,7 +73,10 @@ impl<'de> Deserialize<'de> for Keys {
 ///
 /// # Errors
 /// When a key is unknown (the error lists near ones) or a value is of the wrong kind.
-pub fn apply(options: &FitOptions, settings: &[String]) -> Result<FitOptions> {
+pub fn apply<T: JsonSchema + Serialize + DeserializeOwned + Default + Clone>(
+    options: &T,
+    settings: &[String],
+) -> Result<T> {
     let mut options = options.clone();
     for setting in settings {
         let (key, text) = setting
@@ -86,7 +90,7 @@ pub fn apply(options: &FitOptions, settings: &[String]) -> Result<FitOptions> {
         }
         fields.insert(key.to_owned(), parse(text));
         options = serde_json::from_value(value).map_err(|error| {
-            let kind = all().into_iter().find(|parameter| parameter.name == key).map(|parameter| parameter.kind);
+            let kind = all::<T>().into_iter().find(|parameter| parameter.name == key).map(|parameter| parameter.kind);
             anyhow!("--set {setting}: expected {}: {error}", kind.unwrap_or_else(|| "another value".into()))
         })?;
     }
@@ -176,6 +180,7 @@ fn edits(a: &str, b: &str) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use fairpath_fit::{CurvatureSpaceOptions, FitOptions};
 
     fn set(setting: &str) -> Result<FitOptions> {
         apply(&FitOptions::default(), &[setting.to_owned()])
@@ -183,9 +188,9 @@ mod tests {
 
     #[test]
     fn every_parameter_has_a_description() {
-        let list = all();
+        let list = all::<FitOptions>();
         assert!(!list.is_empty());
-        for parameter in list {
+        for parameter in list.into_iter().chain(all::<CurvatureSpaceOptions>()) {
             assert!(!parameter.description.is_empty(), "{}", parameter.name);
         }
     }
@@ -194,7 +199,7 @@ mod tests {
     fn keys_keep_the_order_of_the_text() {
         let Keys(keys) = serde_json::from_str(r#"{"b":1,"c":{"z":0},"a":[2]}"#).unwrap();
         assert_eq!(keys, ["b", "c", "a"]);
-        assert_eq!(all()[0].name, "pixel_size");
+        assert_eq!(all::<FitOptions>()[0].name, "pixel_size");
     }
 
     #[test]

@@ -3,11 +3,11 @@
 use std::fmt::Write as _;
 
 use clap::CommandFactory;
-use fairpath_fit::{FitOptions, Preset};
+use fairpath_fit::{CurvatureSpaceOptions, FitOptions, Preset};
 use serde_json::Value;
 
 use crate::args::{Cli, preset_name};
-use crate::parameters;
+use crate::parameters::{self, Parameter};
 
 /// Every reference: file name and text.
 #[must_use]
@@ -44,7 +44,7 @@ fn parameters_page() -> String {
     }
     let _ = writeln!(text, " meaning |\n| --- | --- | --- |{} --- |", " ---: |".repeat(Preset::ALL.len()));
     let cell = |text: &str| text.replace('|', "\\|");
-    for parameter in parameters::all() {
+    for parameter in parameters::all::<FitOptions>() {
         let _ = write!(text, "| `{}` | {} | {} |", parameter.name, cell(&parameter.unit), cell(&parameter.kind));
         let usual = &values[0][&parameter.name];
         for (i, value) in values.iter().enumerate() {
@@ -54,6 +54,15 @@ fn parameters_page() -> String {
             let _ = write!(text, " {shown} |");
         }
         let _ = writeln!(text, " {} |", cell(&parameter.description));
+    }
+    text.push_str(
+        "\n## With `--method curvature-space`\n\nSections and equations are those of McCrae and Singh (2008).\n\n\
+         | parameter | unit | kind | default | meaning |\n| --- | --- | --- | ---: | --- |\n",
+    );
+    let values = serde_json::to_value(CurvatureSpaceOptions::default()).unwrap_or(Value::Null);
+    for Parameter { name, unit, description, kind } in parameters::all::<CurvatureSpaceOptions>() {
+        let value = parameters::show(&values[&name]);
+        let _ = writeln!(text, "| `{name}` | {} | {} | {value} | {} |", cell(&unit), cell(&kind), cell(&description));
     }
     text
 }

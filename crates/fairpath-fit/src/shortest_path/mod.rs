@@ -2,19 +2,20 @@
 
 mod a_star;
 mod candidates;
-mod chain;
-mod circle;
+pub(crate) mod chain;
+pub(crate) mod circle;
 mod controls;
 mod cycle;
 mod distances;
 mod graph;
-mod merge;
+pub(crate) mod merge;
 mod recursion;
 mod refine;
 mod search;
 mod transition;
 
 use crate::clean::{Cleaned, clean};
+use crate::conclude::{Parts, describe, polyline, restored, restored_spline};
 use crate::direction::{is_backward, turn_stages_round, turned_round};
 use crate::options::{ClosedSearch, Closing, FitOptions};
 use crate::result::{self, Fit, FitError, Observer, Report, Stages, Step, Warning};
@@ -22,7 +23,7 @@ use crate::stroke::Stroke;
 use crate::track::{Course, Shape, Track, prepare};
 use chain::{Chain, Measured};
 use circle::Circle;
-use fairpath_curve::{Continuity, Point, Segment, Spline, trig};
+use fairpath_curve::{Continuity, Point};
 use graph::{Graph, Node, Path};
 use merge::{Effort, merge};
 use search::Verifier;
@@ -129,9 +130,7 @@ fn solve(
         samples: track.turn + usize::from(track.shape == Shape::Open),
         ..Report::default()
     };
-    let restore = |(segments, joins, closed): Parts| {
-        Spline::new(segments.iter().map(|s| restored(s, cleaned)).collect(), joins, closed).ok()
-    };
+    let restore = |parts| restored_spline(parts, cleaned);
     let strict = attempt(&track, cleaned, options, observer, &mut report, stages.as_deref_mut()).and_then(restore);
     let spline = strict.or_else(|| {
         warnings.push(Warning {
@@ -148,7 +147,7 @@ fn solve(
         restore(polyline(&track))
     });
     let spline = spline.ok_or(FitError::Unfittable { points: stroke.points.len() })?;
-    describe(&mut report, &spline, stroke, options);
+    describe(&mut report, &spline, stroke, options.pixel_size);
     Ok(Fit { spline, report, warnings })
 }
 
@@ -231,8 +230,6 @@ fn loosened(options: &FitOptions) -> FitOptions {
     }
 }
 
-type Parts = (Vec<Segment>, Vec<Continuity>, bool);
-
 /// A path with all its joins enforced.
 struct Merged {
     parts: Parts,
@@ -297,55 +294,6 @@ fn half_round<'a>(
     chain.joins.rotate_left(half);
     Some((chain, course.data[from].s))
 }
-
-/// The points joined by lines: what is left where nothing fits.
-fn polyline(track: &Track) -> Parts {
-    let closed = track.shape != Shape::Open;
-    let points = track.all.run(0, track.turn);
-    let segments: Vec<Segment> = points
-        .windows(2)
-        .map(|p| (p[0].point, p[1].point - p[0].point))
-        .filter(|(_, edge)| edge.hypot2() > 0.0)
-        .map(|(start, edge)| Segment::line(start.to_point(), trig::angle_of(edge), edge.hypot2().sqrt()))
-        .collect();
-    let joins = vec![Continuity::G0; segments.len().saturating_sub(usize::from(!closed))];
-    (segments, joins, closed)
-}
-
-/// A segment in pixels in the stroke's unit and frame.
-fn restored(s: &Segment, cleaned: &Cleaned) -> Segment {
-    Segment {
-        start: cleaned.restore(s.start.to_vec2()),
-        heading: s.heading,
-        length: s.length * cleaned.scale,
-        kappa0: s.kappa0 / cleaned.scale,
-        kappa1: s.kappa1 / cleaned.scale,
-    }
-}
-
-/// Measures the curve against the stroke's own points.
-fn describe(report: &mut Report, spline: &Spline, stroke: &Stroke, options: &FitOptions) {
-    let (mut largest, mut squares) = (0.0_f64, 0.0);
-    for &point in &stroke.points {
-        let d = spline.nearest(point).distance;
-        largest = largest.max(d);
-        squares += d * d;
-    }
-    report.max_deviation = largest;
-    report.rms_deviation = (squares / stroke.points.len() as f64).sqrt();
-    let flat = FLAT / options.pixel_size;
-    let ends = spline.segments().iter().flat_map(|s| [s.kappa0, s.kappa1]).filter(|k| k.abs() > flat);
-    let mut sign = 0.0;
-    for kappa in ends {
-        if sign * kappa < 0.0 {
-            report.inflections += 1;
-        }
-        sign = kappa.signum();
-    }
-}
-
-/// Curvature that has no sign, radians per px.
-const FLAT: f64 = 1e-9;
 
 fn stages(graph: &Graph, path: Option<&Path>, circle: Option<&Circle>, track: &Track, cleaned: &Cleaned) -> Stages {
     let n = track.turn + usize::from(track.shape == Shape::Open);

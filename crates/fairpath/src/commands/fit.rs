@@ -4,25 +4,26 @@ use std::collections::BTreeMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use anyhow::{Context, Result, bail};
-use fairpath_fit::{FitError, FitOptions, Stages, Stroke, fit, fit_observed};
+use fairpath_fit::{Preset, Stages};
 use fairpath_io::{Failure, SplineEntry, SplineFile};
 use rayon::prelude::*;
 
 use super::Ending;
 use super::fit_inputs::{Inputs, Job};
 use super::fit_report;
-use crate::args::{FitArgs, OutputFormat, Stats};
+use super::method_options::MethodOptions;
+use crate::args::{FitArgs, Method, OutputFormat, Stats, preset_name};
 use crate::output::{Destination, Ready};
 use crate::printer::Printer;
 use crate::progress::Progress;
 use crate::stopwatch::Stopwatch;
-use crate::{interrupt, parameters, pictures};
+use crate::{interrupt, pictures};
 
 /// The fitter's word for a stroke that it gave back as a polyline.
 const FALLBACK: &str = "fell-back-to-polyline";
 
 pub(crate) fn run(args: &FitArgs, printer: &mut Printer) -> Result<Ending> {
-    let base = options(args, None)?;
+    let base = MethodOptions::asked(args, None)?;
     if args.list_parameters {
         printer.result(&fit_report::parameters(&base))?;
         return Ok(Ending::Done);
@@ -33,7 +34,7 @@ pub(crate) fn run(args: &FitArgs, printer: &mut Printer) -> Result<Ending> {
     interrupt::install();
 
     let inputs = Inputs::read(&args.inputs, printer)?;
-    let jobs = inputs.jobs(|pixel_size| options(args, pixel_size))?;
+    let jobs = inputs.jobs(|pixel_size| MethodOptions::asked(args, pixel_size))?;
     let outcomes = fit_all(&jobs, &inputs, args)?;
     let mut ready = Ready::default();
     let file = collect(&inputs, outcomes, args, &mut ready);
@@ -70,29 +71,6 @@ fn report(args: &FitArgs, file: &SplineFile, printer: &mut Printer) -> Result<()
     }
 }
 
-/// The options that the arguments ask for, for strokes whose file says so of its pixels.
-fn options(args: &FitArgs, pixel_size_of_file: Option<f64>) -> Result<FitOptions> {
-    let mut options = FitOptions::preset(args.preset);
-    if let Some(closed) = args.closed {
-        options.closed = closed;
-    }
-    if let Some(size) = args.pixel_size
-        && !(size.is_finite() && size > 0.0)
-    {
-        bail!("--pixel-size {size}: expected a number above 0, the size of a screen's pixel in the strokes' unit");
-    }
-    if let Some(size) = args.pixel_size.or(pixel_size_of_file) {
-        options.pixel_size = size;
-    }
-    let options = parameters::apply(&options, &args.set)?;
-    // Any stroke shows an option that is out of range; a short one is cheap.
-    let probe = Stroke::new("probe", vec![(0.0, 0.0).into(), (1.0, 0.0).into()]);
-    match fit(&probe, &options) {
-        Err(error @ FitError::BadOption { .. }) => bail!("{error}"),
-        _ => Ok(options),
-    }
-}
-
 fn check_combination(args: &FitArgs, output: Option<&Destination>, picture: Option<&Destination>) -> Result<()> {
     let stdout = |to: Option<&Destination>| to.is_some_and(|to| to.path.as_os_str() == "-");
     if args.stats.is_some() && stdout(output) {
@@ -105,6 +83,12 @@ fn check_combination(args: &FitArgs, output: Option<&Destination>, picture: Opti
         if output.is_some_and(|output| output.path == to.path) {
             bail!("{}: -o and --picture name the same file", to.path.display());
         }
+    }
+    if args.stages.is_some() && args.method != Method::ShortestPath {
+        bail!("--stages: only the steps of the method shortest-path can be drawn");
+    }
+    if args.preset != Preset::Default && args.method != Method::ShortestPath {
+        bail!("--preset {}: the method {} has no presets", preset_name(args.preset), args.method.name());
     }
     if args.stages.as_ref().is_some_and(|folder| folder.exists() && !folder.is_dir()) {
         bail!("--stages: expected a folder, and a file of that name exists");
@@ -139,7 +123,7 @@ fn fit_one(job: &Job<'_>, inputs: &Inputs, args: &FitArgs) -> Outcome {
     // The fitter does not panic on data; should it all the same, the other strokes are still worth having.
     let fitted = catch_unwind(AssertUnwindSafe(|| {
         let mut watch = Stopwatch::start();
-        let fit = fit_observed(job.stroke, &job.options, &mut watch, stages.as_mut());
+        let fit = job.options.fit(job.stroke, &mut watch, stages.as_mut());
         (fit, watch.stop())
     }));
     let failed = |failure| Outcome { result: Err(failure), steps: Vec::new() };
@@ -181,7 +165,7 @@ fn missed_tolerances(jobs: &[Job<'_>], file: &SplineFile) -> Vec<String> {
     for entry in &file.splines {
         let Some(job) = by_name.get(entry.name.as_str()) else { continue };
         let name = fit_report::plain(&entry.name);
-        let allowed = job.options.max_error * job.options.pixel_size;
+        let allowed = job.options.largest_deviation();
         let deviation = entry.report.as_ref().map_or(0.0, |report| report.figures.max_deviation);
         if deviation > allowed {
             missed.push(format!("{name}: the curve is {deviation:.3} off, more than {allowed:.3} (max_error)"));

@@ -3,9 +3,10 @@
 use std::path::PathBuf;
 
 use anyhow::{Result, bail};
-use fairpath_fit::{FitOptions, Stroke};
+use fairpath_fit::Stroke;
 use fairpath_io::{ReadOptions, StrokeFile, Unit, read_strokes};
 
+use super::method_options::MethodOptions;
 use crate::printer::Printer;
 
 /// Everything that is to be fitted.
@@ -19,7 +20,7 @@ pub(crate) struct Inputs {
 /// A stroke to be fitted.
 pub(crate) struct Job<'a> {
     pub(crate) stroke: &'a Stroke,
-    pub(crate) options: FitOptions,
+    pub(crate) options: MethodOptions,
 }
 
 impl Inputs {
@@ -72,9 +73,9 @@ impl Inputs {
     ///
     /// # Errors
     /// As `options`.
-    pub(crate) fn jobs(&self, options: impl Fn(Option<f64>) -> Result<FitOptions>) -> Result<Vec<Job<'_>>> {
+    pub(crate) fn jobs(&self, options: impl Fn(Option<f64>) -> Result<MethodOptions>) -> Result<Vec<Job<'_>>> {
         let mut jobs: Vec<Job<'_>> = Vec::with_capacity(self.file.strokes.len());
-        let mut known: Option<(f64, FitOptions)> = None;
+        let mut known: Option<(f64, MethodOptions)> = None;
         for (stroke, &size) in self.file.strokes.iter().zip(&self.pixel_sizes) {
             // Strokes of one file share their options; making them means a trial fit.
             let options = match &known {

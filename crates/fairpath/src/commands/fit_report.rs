@@ -2,10 +2,10 @@
 
 use anyhow::{Context, Result};
 use fairpath_curve::{Continuity, Kind};
-use fairpath_fit::FitOptions;
 use fairpath_io::{SplineEntry, SplineFile};
 use serde_json::{Value, json};
 
+use super::method_options::MethodOptions;
 use crate::args::OutputFormat;
 use crate::printer::{Printer, columns};
 use crate::{parameters, pictures};
@@ -14,9 +14,8 @@ use crate::{parameters, pictures};
 const MOST_NOTES: usize = 20;
 
 /// A line for each parameter: name, value, unit, kind, meaning.
-pub(crate) fn parameters(options: &FitOptions) -> String {
-    let values = serde_json::to_value(options).unwrap_or(Value::Null);
-    let list = parameters::all();
+pub(crate) fn parameters(options: &MethodOptions) -> String {
+    let (list, values) = options.listed();
     let head: Vec<String> = list
         .iter()
         .map(|parameter| format!("{} = {}", parameter.name, parameters::show(&values[&parameter.name])))

@@ -1,0 +1,126 @@
+//! Everything that can be set about fitting in curvature space.
+
+use crate::options::{Closing, FitOptions};
+use crate::result::FitError;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// How far the method goes beyond its paper.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Mode {
+    /// The pieces found in curvature space are then fitted to the points themselves: curvature that is integrated twice drifts.
+    #[default]
+    Refined,
+    /// As the paper does: curvature is integrated as it was found, and the whole laid over the stroke.
+    Faithful,
+}
+
+/// How curvature is estimated along the stroke.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum CurvatureEstimate {
+    /// The circle with the least squared distances to all points of a window.
+    #[default]
+    Circle,
+    /// From each point and its two neighbours (equation 6): for strokes without tremor.
+    ThreePoints,
+}
+
+/// Options of fitting in curvature space (McCrae and Singh 2008). Sections and equations are the paper's.
+///
+/// Lengths in px are multiplied by `pixel_size`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct CurvatureSpaceOptions {
+    /// Size of one pixel of a 100 dpi screen in the stroke's unit: every length below is multiplied by it.
+    #[schemars(extend("unit" = "unit/px"))]
+    pub pixel_size: f64,
+    /// Whether the stroke is a closed curve.
+    pub closed: Closing,
+    /// Largest distance of first and last point of a closed stroke.
+    #[schemars(extend("unit" = "px"))]
+    pub closing_gap: f64,
+    /// Least angle between the two arcs that meet at a corner (section 5.1).
+    #[schemars(extend("unit" = "degrees"))]
+    pub corner_angle: f64,
+    /// How far the method goes beyond its paper.
+    pub mode: Mode,
+    /// How curvature is estimated (section 4.1).
+    pub curvature: CurvatureEstimate,
+    /// Neighbourhood on each side to which a circle is fitted.
+    #[schemars(extend("unit" = "px"))]
+    pub curvature_window: f64,
+    /// Distance of the places where circles are fitted; more on strokes longer than 500 times this between two corners.
+    #[schemars(extend("unit" = "px"))]
+    pub spacing: f64,
+    /// Cost of one linear piece of curvature: E_cost of equation 7. Errors are counted per length of stroke, so that this does not depend on how
+    /// dense the points lie: it is the paper's value times their distance.
+    #[schemars(extend("unit" = "radians"))]
+    pub piece_cost: f64,
+    /// Weight of ends and corners relative to other points when the curve is laid over the stroke (section 4.4).
+    #[schemars(extend("unit" = "1"))]
+    pub end_weight: f64,
+    /// Largest deviation to be reached by lowering `piece_cost` as long as that helps (section 6); null leaves the cost as it is.
+    #[schemars(extend("unit" = "px"))]
+    pub target_error: Option<f64>,
+    /// A curve further than this from its stroke comes with a warning.
+    #[schemars(extend("unit" = "px"))]
+    pub max_error: f64,
+}
+
+impl Default for CurvatureSpaceOptions {
+    fn default() -> Self {
+        let shared = FitOptions::default();
+        Self {
+            pixel_size: shared.pixel_size,
+            closed: shared.closed,
+            closing_gap: shared.closing_gap,
+            corner_angle: shared.corner_angle,
+            mode: Mode::Refined,
+            curvature: CurvatureEstimate::Circle,
+            curvature_window: 15.0,
+            spacing: 4.0,
+            piece_cost: 0.2,
+            end_weight: 2.0,
+            target_error: Some(5.0),
+            max_error: shared.max_error,
+        }
+    }
+}
+
+impl CurvatureSpaceOptions {
+    /// Checks every option against its range.
+    ///
+    /// # Errors
+    /// Names the first option that is out of its range.
+    pub fn validate(&self) -> Result<(), FitError> {
+        // What both methods share is checked where it is defined.
+        self.shared().validate()?;
+        let rules = [
+            ("spacing", self.spacing, 0.25, 1e6, "0.25 to 1e6 px"),
+            ("piece_cost", self.piece_cost, 1e-9, 1e9, "1e-9 to 1e9 radians"),
+            ("end_weight", self.end_weight, 0.01, 1e4, "0.01 to 1e4"),
+            ("target_error", self.target_error.unwrap_or(1.0), 1e-3, 1e4, "0.001 to 1e4 px, or null"),
+        ];
+        for (name, value, low, high, expected) in rules {
+            if !(low..=high).contains(&value) {
+                return Err(FitError::BadOption { name, value, expected });
+            }
+        }
+        Ok(())
+    }
+
+    /// The options of what the methods share: cleaning, closure and corners.
+    pub(crate) fn shared(&self) -> FitOptions {
+        FitOptions {
+            pixel_size: self.pixel_size,
+            closed: self.closed,
+            closing_gap: self.closing_gap,
+            corner_angle: self.corner_angle,
+            curvature_window: self.curvature_window,
+            max_error: self.max_error,
+            ..FitOptions::default()
+        }
+    }
+}
