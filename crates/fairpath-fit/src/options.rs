@@ -71,7 +71,7 @@ pub enum Transitions {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Search {
-    /// Distances to the target are repaired near the joins that changed, and computed anew before the path is accepted.
+    /// Distances to the target are repaired near the joins that changed, and brought up to date everywhere before the path is accepted.
     #[default]
     Repair,
     /// As the paper does: A* with the distances found before as its heuristic, which are computed anew every few runs.
@@ -83,7 +83,8 @@ pub enum Search {
 #[serde(rename_all = "kebab-case")]
 pub enum ClosedSearch {
     /// The shortest cycle: bounded from below by the best way once around between any two nodes, and found by branch and bound where
-    /// that does not close.
+    /// that does not close. On a ring of very many equal cycles the search is given up after 40 times the work of its first round, and
+    /// the best cycle so far is taken.
     #[default]
     Exact,
     /// As the paper does: the shortest one through a node in the middle of what was found before, three times.
