@@ -29,6 +29,7 @@ mod resample;
 mod result;
 mod shortest_path;
 mod stroke;
+mod stroke_options;
 mod track;
 mod walk;
 
@@ -36,6 +37,7 @@ pub use curvature_space::{CurvatureEstimate, CurvatureSpaceOptions, Mode};
 pub use options::{ClosedSearch, Closing, Deviation, FitOptions, Preset, Resampling, Search, Transitions};
 pub use result::{Candidate, Fit, FitError, Observer, Report, Stages, Step, Warning};
 pub use stroke::Stroke;
+pub use stroke_options::StrokeOptions;
 
 /// The fair curve of a stroke, in the stroke's unit and frame. Lengths among the options are in px of `options.pixel_size` units.
 ///

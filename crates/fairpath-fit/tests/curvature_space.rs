@@ -5,7 +5,7 @@ mod corpus;
 
 use fairpath_curve::{Continuity, JOIN_TOLERANCE, Point, Segment, Spline};
 use fairpath_fit::{
-    Closing, CurvatureEstimate, CurvatureSpaceOptions, Fit, FitError, FitOptions, Mode, Stroke, fit,
+    Closing, CurvatureEstimate, CurvatureSpaceOptions, Fit, FitError, FitOptions, Mode, Stroke, StrokeOptions, fit,
     fit_curvature_space,
 };
 use proptest::prelude::*;
@@ -155,7 +155,10 @@ fn an_option_out_of_range_is_named() {
         ("end_weight", CurvatureSpaceOptions { end_weight: -1.0, ..good() }),
         ("target_error", CurvatureSpaceOptions { target_error: Some(0.0), ..good() }),
         ("curvature_window", CurvatureSpaceOptions { curvature_window: 1.0, ..good() }),
-        ("pixel_size", CurvatureSpaceOptions { pixel_size: -1.0, ..good() }),
+        (
+            "pixel_size",
+            CurvatureSpaceOptions { stroke: StrokeOptions { pixel_size: -1.0, ..StrokeOptions::default() }, ..good() },
+        ),
     ];
     let stroke = Stroke::new("line", vec![Point::ORIGIN, Point::new(9.0, 0.0)]);
     for (option, options) in bad {
@@ -188,7 +191,7 @@ proptest! {
         let options = CurvatureSpaceOptions {
             mode: if refined { Mode::Refined } else { Mode::Faithful },
             curvature: if three { CurvatureEstimate::ThreePoints } else { CurvatureEstimate::Circle },
-            closed,
+            stroke: StrokeOptions { closed, ..StrokeOptions::default() },
             ..CurvatureSpaceOptions::default()
         };
         let stroke = Stroke::new("walk", points);
@@ -224,4 +227,12 @@ fn every_recorded_stroke_gets_a_sound_curve() {
         }
         println!("{name}: mean rms refined {:.3}, faithful {:.3}", sums[0], sums[1]);
     }
+}
+
+#[test]
+fn options_read_from_json_know_their_names() {
+    let read = |text: &str| serde_json::from_str::<CurvatureSpaceOptions>(text);
+    let options = read(r#"{"closing_gap": 20.0, "piece_cost": 0.3}"#).unwrap();
+    assert_eq!((options.stroke.closing_gap, options.piece_cost), (20.0, 0.3));
+    assert!(read(r#"{"closing_gab": 20.0}"#).unwrap_err().to_string().contains("closing_gab"));
 }

@@ -27,11 +27,11 @@ use fairpath_curve::{Continuity, Point, Segment, Vec2};
 /// Fits a stroke.
 pub(crate) fn fit(stroke: &Stroke, options: &CurvatureSpaceOptions) -> Result<Fit, FitError> {
     options.validate()?;
-    let mut cleaned = clean(&stroke.points, options.pixel_size)?;
+    let mut cleaned = clean(&stroke.points, options.stroke.pixel_size)?;
     let backward = is_backward(&stroke.points);
     if backward {
         let reversed: Vec<Point> = stroke.points.iter().rev().copied().collect();
-        cleaned = clean(&reversed, options.pixel_size)?;
+        cleaned = clean(&reversed, options.stroke.pixel_size)?;
     }
     let mut fit = to_target(stroke, &cleaned, options)?;
     warn_if_far(&mut fit, options);
@@ -50,7 +50,7 @@ fn to_target(stroke: &Stroke, cleaned: &Cleaned, options: &CurvatureSpaceOptions
             best = Some(fit);
         }
         let reached = best.as_ref().map_or(f64::INFINITY, |b| b.report.max_deviation);
-        if options.target_error.is_none_or(|target| reached <= target * options.pixel_size) {
+        if options.target_error.is_none_or(|target| reached <= target * options.stroke.pixel_size) {
             break;
         }
         piece_cost *= LOWER;
@@ -69,12 +69,12 @@ fn warn_if_far(fit: &mut Fit, options: &CurvatureSpaceOptions) {
     let off = fit.report.max_deviation;
     let told = |code: &str, text: String| Warning { code: code.into(), text };
     if let Some(target) = options.target_error
-        && off > target * options.pixel_size
+        && off > target * options.stroke.pixel_size
     {
-        let target = target * options.pixel_size;
+        let target = target * options.stroke.pixel_size;
         fit.warnings.push(told("target-missed", format!("the curve is up to {off:.3} off, more than {target:.3}")));
     }
-    if off > options.max_error * options.pixel_size {
+    if off > options.max_error * options.stroke.pixel_size {
         fit.warnings.push(told("far-from-stroke", format!("the curve is up to {off:.3} away from the stroke")));
     }
 }
@@ -128,7 +128,7 @@ fn solve(
     if track.trimmed > 0 {
         warn("closed-by-trimming", &format!("the stroke's ends overshoot: {} points were cut off", track.trimmed));
     }
-    if options.closed == Closing::Yes && track.shape == Shape::Open {
+    if options.stroke.closed == Closing::Yes && track.shape == Shape::Open {
         warn("not-closed", "the stroke was to be closed, but nothing would remain of it; it is fitted as an open one");
     }
     let mut report = Report {
@@ -163,7 +163,7 @@ fn solve(
         restored_spline(polyline(track), cleaned)
     });
     let spline = spline.ok_or(FitError::Unfittable { points: stroke.points.len() })?;
-    describe(&mut report, &spline, stroke, options.pixel_size);
+    describe(&mut report, &spline, stroke, options.stroke.pixel_size);
     Ok(Fit { spline, report, warnings })
 }
 

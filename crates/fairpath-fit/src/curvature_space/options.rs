@@ -1,7 +1,8 @@
 //! Everything that can be set about fitting in curvature space.
 
-use crate::options::{Closing, FitOptions};
+use crate::options::FitOptions;
 use crate::result::FitError;
+use crate::stroke_options::StrokeOptions;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -33,17 +34,9 @@ pub enum CurvatureEstimate {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct CurvatureSpaceOptions {
-    /// Size of one pixel of a 100 dpi screen in the stroke's unit: every length below is multiplied by it.
-    #[schemars(extend("unit" = "unit/px"))]
-    pub pixel_size: f64,
-    /// Whether the stroke is a closed curve.
-    pub closed: Closing,
-    /// Largest distance of first and last point of a closed stroke.
-    #[schemars(extend("unit" = "px"))]
-    pub closing_gap: f64,
-    /// Least angle between the two arcs that meet at a corner (section 5.1).
-    #[schemars(extend("unit" = "degrees"))]
-    pub corner_angle: f64,
+    /// What every method asks of a stroke.
+    #[serde(flatten)]
+    pub stroke: StrokeOptions,
     /// How far the method goes beyond its paper.
     pub mode: Mode,
     /// How curvature is estimated (section 4.1).
@@ -73,10 +66,7 @@ impl Default for CurvatureSpaceOptions {
     fn default() -> Self {
         let shared = FitOptions::default();
         Self {
-            pixel_size: shared.pixel_size,
-            closed: shared.closed,
-            closing_gap: shared.closing_gap,
-            corner_angle: shared.corner_angle,
+            stroke: StrokeOptions::default(),
             mode: Mode::Refined,
             curvature: CurvatureEstimate::Circle,
             curvature_window: 15.0,
@@ -114,13 +104,9 @@ impl CurvatureSpaceOptions {
     /// The options of what the methods share: cleaning, closure and corners.
     pub(crate) fn shared(&self) -> FitOptions {
         FitOptions {
-            pixel_size: self.pixel_size,
-            closed: self.closed,
-            closing_gap: self.closing_gap,
-            corner_angle: self.corner_angle,
             curvature_window: self.curvature_window,
             max_error: self.max_error,
-            ..FitOptions::default()
+            ..self.stroke.of_shortest_path()
         }
     }
 }

@@ -1,20 +1,110 @@
 //! The options of whichever method was asked for.
 
+use std::fmt::Debug;
+use std::sync::Arc;
+
 use anyhow::{Result, bail};
 use fairpath_fit::{
-    CurvatureSpaceOptions, Fit, FitError, FitOptions, Observer, Stages, Stroke, fit_curvature_space, fit_observed,
+    Closing, CurvatureSpaceOptions, Fit, FitError, FitOptions, Observer, Stages, Stroke, fit_curvature_space,
+    fit_observed,
 };
+use schemars::JsonSchema;
+use serde::Serialize;
+use serde::de::DeserializeOwned;
 use serde_json::Value;
 
 use crate::args::{FitArgs, Method};
 use crate::parameters::{self, Parameter};
 
+/// What the command line must know of the options of a method; a method more is an implementation more.
+trait Options: JsonSchema + Serialize + DeserializeOwned + Default + Clone + Debug + Send + Sync + 'static {
+    /// Size of a pixel in the stroke's unit, and whether strokes are closed: for what has arguments of its own.
+    fn stroke(&mut self) -> (&mut f64, &mut Closing);
+
+    /// Distance from its stroke that a curve should keep, in the stroke's unit; infinite for a method that keeps none.
+    fn largest_deviation(&self) -> f64;
+
+    /// Fits a stroke. Only the method of shortest paths has stages, and only it tells `observer` of its steps.
+    fn fit(
+        &self,
+        stroke: &Stroke,
+        observer: &mut dyn Observer,
+        stages: Option<&mut Stages>,
+    ) -> std::result::Result<Fit, FitError>;
+}
+
+impl Options for FitOptions {
+    fn stroke(&mut self) -> (&mut f64, &mut Closing) {
+        (&mut self.pixel_size, &mut self.closed)
+    }
+
+    fn largest_deviation(&self) -> f64 {
+        self.max_error * self.pixel_size
+    }
+
+    fn fit(
+        &self,
+        stroke: &Stroke,
+        observer: &mut dyn Observer,
+        stages: Option<&mut Stages>,
+    ) -> std::result::Result<Fit, FitError> {
+        fit_observed(stroke, self, observer, stages)
+    }
+}
+
+impl Options for CurvatureSpaceOptions {
+    fn stroke(&mut self) -> (&mut f64, &mut Closing) {
+        (&mut self.stroke.pixel_size, &mut self.stroke.closed)
+    }
+
+    fn largest_deviation(&self) -> f64 {
+        self.max_error * self.stroke.pixel_size
+    }
+
+    fn fit(
+        &self,
+        stroke: &Stroke,
+        _observer: &mut dyn Observer,
+        _stages: Option<&mut Stages>,
+    ) -> std::result::Result<Fit, FitError> {
+        fit_curvature_space(stroke, self)
+    }
+}
+
+/// The options of one of the methods, which it is.
+trait Chosen: Debug + Send + Sync {
+    fn largest_deviation(&self) -> f64;
+    fn fit(
+        &self,
+        stroke: &Stroke,
+        observer: &mut dyn Observer,
+        stages: Option<&mut Stages>,
+    ) -> std::result::Result<Fit, FitError>;
+    fn listed(&self) -> (Vec<Parameter>, Value);
+}
+
+impl<T: Options> Chosen for T {
+    fn largest_deviation(&self) -> f64 {
+        Options::largest_deviation(self)
+    }
+
+    fn fit(
+        &self,
+        stroke: &Stroke,
+        observer: &mut dyn Observer,
+        stages: Option<&mut Stages>,
+    ) -> std::result::Result<Fit, FitError> {
+        Options::fit(self, stroke, observer, stages)
+    }
+
+    fn listed(&self) -> (Vec<Parameter>, Value) {
+        (parameters::all::<T>(), serde_json::to_value(self).unwrap_or(Value::Null))
+    }
+}
+
 /// A method with its options.
 #[derive(Clone, Debug)]
-pub(crate) enum MethodOptions {
-    ShortestPath(Box<FitOptions>),
-    CurvatureSpace(CurvatureSpaceOptions),
-}
+pub(crate) struct MethodOptions(Arc<dyn Chosen>);
 
 impl MethodOptions {
     /// What the arguments ask for, for strokes whose file says so of its pixels.
@@ -29,18 +119,8 @@ impl MethodOptions {
         }
         let pixel_size = args.pixel_size.or(pixel_size_of_file);
         let options = match args.method {
-            Method::ShortestPath => {
-                let mut options = FitOptions::preset(args.preset);
-                options.closed = args.closed.unwrap_or(options.closed);
-                options.pixel_size = pixel_size.unwrap_or(options.pixel_size);
-                Self::ShortestPath(Box::new(parameters::apply(&options, &args.set)?))
-            }
-            Method::CurvatureSpace => {
-                let mut options = CurvatureSpaceOptions::default();
-                options.closed = args.closed.unwrap_or(options.closed);
-                options.pixel_size = pixel_size.unwrap_or(options.pixel_size);
-                Self::CurvatureSpace(parameters::apply(&options, &args.set)?)
-            }
+            Method::ShortestPath => set(FitOptions::preset(args.preset), args, pixel_size)?,
+            Method::CurvatureSpace => set(CurvatureSpaceOptions::default(), args, pixel_size)?,
         };
         // Any stroke shows an option that is out of range; a short one is cheap.
         let probe = Stroke::new("probe", vec![(0.0, 0.0).into(), (1.0, 0.0).into()]);
@@ -59,30 +139,25 @@ impl MethodOptions {
         stroke: &Stroke,
         observer: &mut dyn Observer,
         stages: Option<&mut Stages>,
-    ) -> Result<Fit, FitError> {
-        match self {
-            Self::ShortestPath(options) => fit_observed(stroke, options, observer, stages),
-            Self::CurvatureSpace(options) => fit_curvature_space(stroke, options),
-        }
+    ) -> std::result::Result<Fit, FitError> {
+        self.0.fit(stroke, observer, stages)
     }
 
     /// Distance from its stroke that a curve should keep, in the stroke's unit.
     pub(crate) fn largest_deviation(&self) -> f64 {
-        match self {
-            Self::ShortestPath(options) => options.max_error * options.pixel_size,
-            Self::CurvatureSpace(options) => options.max_error * options.pixel_size,
-        }
+        self.0.largest_deviation()
     }
 
     /// The parameters and the values that they have.
     pub(crate) fn listed(&self) -> (Vec<Parameter>, Value) {
-        match self {
-            Self::ShortestPath(options) => (parameters::all::<FitOptions>(), values(options.as_ref())),
-            Self::CurvatureSpace(options) => (parameters::all::<CurvatureSpaceOptions>(), values(options)),
-        }
+        self.0.listed()
     }
 }
 
-fn values(options: &impl serde::Serialize) -> Value {
-    serde_json::to_value(options).unwrap_or(Value::Null)
+/// Options with what the arguments change about them.
+fn set<T: Options>(mut options: T, args: &FitArgs, pixel_size: Option<f64>) -> Result<MethodOptions> {
+    let (size, closed) = options.stroke();
+    *size = pixel_size.unwrap_or(*size);
+    *closed = args.closed.unwrap_or(*closed);
+    Ok(MethodOptions(Arc::new(parameters::apply(&options, &args.set)?)))
 }
