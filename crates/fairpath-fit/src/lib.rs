@@ -20,6 +20,7 @@ mod conclude;
 mod corners;
 mod curvature_space;
 mod direction;
+mod french_curve;
 mod hooks;
 mod linear;
 mod options;
@@ -34,6 +35,7 @@ mod track;
 mod walk;
 
 pub use curvature_space::{CurvatureEstimate, CurvatureSpaceOptions, Mode};
+pub use french_curve::{Template, TemplateError, TemplatePiece, TemplateSet};
 pub use options::{ClosedSearch, Closing, Deviation, FitOptions, Preset, Resampling, Search, Transitions};
 pub use result::{Candidate, Fit, FitError, Observer, Report, Stages, Step, Warning};
 pub use stroke::Stroke;
