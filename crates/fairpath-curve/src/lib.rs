@@ -14,6 +14,7 @@
 //! | --- | --- |
 //! | make a segment | [`Segment::line`], [`Segment::arc`], [`Segment::clothoid`], [`hermite_g1`] |
 //! | join two poses smoothly | [`hermite_g1`] (one clothoid), [`hermite_g2`] (three, curvature too) |
+//! | follow any curve by clothoids | [`clothoids_along`] |
 //! | evaluate | [`Segment::point_at`], [`Segment::heading_at`], [`Segment::curvature_at`], [`Segment::tangent_at`], [`Segment::pose_at`], [`Spline::pose_at`] |
 //! | differentiate | [`Segment::position_jacobian`], [`Segment::position_hessian`]; by arc length [`Segment::tangent_at`]; raw moments: [`moments`], [`moments_to_4`] |
 //! | find the nearest point | [`Segment::nearest`], [`Segment::nearest_all`], [`Spline::nearest`] |
@@ -58,6 +59,7 @@
 //! Positions are within 1e-13 × length of independent evaluations for |turning| ≤ 100 rad and lengths from 1e-6 to 1e6
 //! (`tools/judge_kernel.py` measures it against scipy, mpmath and pyclothoids); `cargo bench -p fairpath-curve` prints the times.
 
+mod along;
 mod arcs;
 mod bezier;
 mod bounds;
@@ -81,6 +83,7 @@ mod spline;
 mod transform;
 pub mod trig;
 
+pub use along::clothoids_along;
 pub use comb::Tooth;
 pub use fit_source::FitSource;
 pub use hermite_g1::hermite_g1;
