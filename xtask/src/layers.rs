@@ -26,7 +26,7 @@ const LAYERS: &[Layer] = &[
     Layer {
         name: "fairpath-fit",
         workspace: &["fairpath-curve"],
-        outside: Some(&["kurbo", "libm", "rayon", "schemars", "serde", "thiserror"]),
+        outside: Some(&["flo_curves", "kurbo", "libm", "rayon", "schemars", "serde", "thiserror"]),
     },
     Layer { name: "fairpath-io", workspace: &["fairpath-curve", "fairpath-fit"], outside: None },
     Layer { name: "fairpath", workspace: &["fairpath-curve", "fairpath-fit", "fairpath-io"], outside: None },

@@ -1,7 +1,8 @@
 //! What every method ends with: the curve in the stroke's unit and frame, measured against the stroke.
 
 use crate::clean::Cleaned;
-use crate::result::Report;
+use crate::options::Closing;
+use crate::result::{Report, Warning};
 use crate::stroke::Stroke;
 use crate::track::{Shape, Track};
 use fairpath_curve::{Continuity, Segment, Spline, trig};
@@ -25,13 +26,30 @@ pub(crate) fn restored(s: &Segment, cleaned: &Cleaned) -> Segment {
     }
 }
 
-/// Measures the curve against the stroke's own points.
+/// What is to be said about how the stroke was closed.
+pub(crate) fn closing_warnings(track: &Track, closed: Closing) -> Vec<Warning> {
+    let mut warnings = Vec::new();
+    let mut warn = |code: &str, text: String| warnings.push(Warning { code: code.into(), text });
+    if track.trimmed > 0 {
+        warn("closed-by-trimming", format!("the stroke's ends overshoot: {} points were cut off", track.trimmed));
+    }
+    if closed == Closing::Yes && track.shape == Shape::Open {
+        let text = "the stroke was to be closed, but nothing would remain of it; it is fitted as an open one";
+        warn("not-closed", text.into());
+    }
+    warnings
+}
+
+/// Measures the curve against the stroke's own points. Its pieces are its segments, unless the method has counted others.
 pub(crate) fn describe(report: &mut Report, spline: &Spline, stroke: &Stroke, pixel_size: f64) {
     let (mut largest, mut squares) = (0.0_f64, 0.0);
     for &point in &stroke.points {
         let d = spline.nearest(point).distance;
         largest = largest.max(d);
         squares += d * d;
+    }
+    if report.pieces == 0 {
+        report.pieces = spline.segments().len();
     }
     report.max_deviation = largest;
     report.rms_deviation = (squares / stroke.points.len() as f64).sqrt();

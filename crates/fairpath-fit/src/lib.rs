@@ -14,6 +14,7 @@
 //! # Ok::<(), fairpath_fit::FitError>(())
 //! ```
 
+mod baseline;
 mod clean;
 mod closure;
 mod conclude;
@@ -34,6 +35,7 @@ mod stroke_options;
 mod track;
 mod walk;
 
+pub use baseline::{CubicOptions, LaplacianOptions, MvcOptions};
 pub use curvature_space::{CurvatureEstimate, CurvatureSpaceOptions, Mode};
 pub use french_curve::{Template, TemplateError, TemplatePiece, TemplateSet};
 pub use options::{ClosedSearch, Closing, Deviation, FitOptions, Preset, Resampling, Search, Transitions};
@@ -75,4 +77,30 @@ pub fn fit_observed(
 /// As [`fit`].
 pub fn fit_curvature_space(stroke: &Stroke, options: &CurvatureSpaceOptions) -> Result<Fit, FitError> {
     curvature_space::fit(stroke, options)
+}
+
+/// The stroke after Laplacian smoothing: a polyline between corners, for comparison.
+///
+/// # Errors
+/// As [`fit`].
+pub fn fit_laplacian(stroke: &Stroke, options: &LaplacianOptions) -> Result<Fit, FitError> {
+    baseline::fit_laplacian(stroke, options)
+}
+
+/// Least-squares cubic Béziers with common tangents, as most drawing programs fit them, for comparison. The spline follows them by clothoids
+/// within `accuracy`; how many cubics they are, `report.pieces` says.
+///
+/// # Errors
+/// As [`fit`].
+pub fn fit_cubic(stroke: &Stroke, options: &CubicOptions) -> Result<Fit, FitError> {
+    baseline::fit_cubic(stroke, options)
+}
+
+/// The curve that minimises the squared distance to the stroke together with the variation of its curvature, for comparison: fair, but of
+/// very many pieces.
+///
+/// # Errors
+/// As [`fit`].
+pub fn fit_mvc(stroke: &Stroke, options: &MvcOptions) -> Result<Fit, FitError> {
+    baseline::fit_mvc(stroke, options)
 }

@@ -27,6 +27,8 @@ pub struct Report {
     pub rms_deviation: f64,
     /// Sign changes of curvature along the curve, corners included.
     pub inflections: usize,
+    /// Pieces as the method itself counts them, such as cubics or parts of templates; the segments where it makes these.
+    pub pieces: usize,
     /// Cost of the chosen path.
     pub cost: f64,
     /// Points after resampling (section 3.2).

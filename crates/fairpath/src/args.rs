@@ -52,8 +52,8 @@ pub struct FitArgs {
     #[arg(long)]
     pub flip_y: bool,
 
-    /// How to fit: `shortest-path` (Baran, Lehtinen and Popović 2010) or `curvature-space` (McCrae and Singh 2008)
-    #[arg(long, value_name = "METHOD", default_value = "shortest-path", value_parser = method)]
+    /// How to fit
+    #[arg(long, value_name = "METHOD", default_value = "shortest-path")]
     pub method: Method,
 
     /// The set of parameters to start from
@@ -151,36 +151,26 @@ pub enum Stats {
 }
 
 /// The methods that exist.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(ValueEnum, Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Method {
-    /// Baran, Lehtinen and Popović (2010).
+    /// Lines, arcs and clothoids by shortest paths (Baran, Lehtinen and Popović 2010)
     ShortestPath,
-    /// McCrae and Singh (2008).
+    /// Clothoids by pieces of linear curvature (McCrae and Singh 2008)
     CurvatureSpace,
+    /// For comparison: each point towards the middle of its neighbours
+    Laplacian,
+    /// For comparison: least-squares cubic Béziers (Schneider 1990)
+    Cubic,
+    /// For comparison: minimum variation of curvature (Moreton 1992)
+    Mvc,
 }
 
 impl Method {
     /// Its name here and in files.
     #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::ShortestPath => "shortest-path",
-            Self::CurvatureSpace => "curvature-space",
-        }
+    pub fn name(self) -> String {
+        self.to_possible_value().map(|value| value.get_name().to_owned()).unwrap_or_default()
     }
-}
-
-fn method(text: &str) -> Result<Method, String> {
-    let methods = [Method::ShortestPath, Method::CurvatureSpace];
-    if let Some(method) = methods.into_iter().find(|method| method.name() == text) {
-        return Ok(method);
-    }
-    Err(match text {
-        "french-curve" | "laplacian" | "cubic" | "mvc" => {
-            format!("the method {text} is not part of this version; use shortest-path or curvature-space")
-        }
-        _ => "there is no method of that name; use shortest-path or curvature-space".to_owned(),
-    })
 }
 
 /// The word for a preset, here and in files.

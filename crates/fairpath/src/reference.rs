@@ -3,7 +3,9 @@
 use std::fmt::Write as _;
 
 use clap::CommandFactory;
-use fairpath_fit::{CurvatureSpaceOptions, FitOptions, Preset};
+use fairpath_fit::{CubicOptions, CurvatureSpaceOptions, FitOptions, LaplacianOptions, MvcOptions, Preset};
+use schemars::JsonSchema;
+use serde::Serialize;
 use serde_json::Value;
 
 use crate::args::{Cli, preset_name};
@@ -43,7 +45,6 @@ fn parameters_page() -> String {
         let _ = write!(text, " {} |", preset_name(preset));
     }
     let _ = writeln!(text, " meaning |\n| --- | --- | --- |{} --- |", " ---: |".repeat(Preset::ALL.len()));
-    let cell = |text: &str| text.replace('|', "\\|");
     for parameter in parameters::all::<FitOptions>() {
         let _ = write!(text, "| `{}` | {} | {} |", parameter.name, cell(&parameter.unit), cell(&parameter.kind));
         let usual = &values[0][&parameter.name];
@@ -55,14 +56,32 @@ fn parameters_page() -> String {
         }
         let _ = writeln!(text, " {} |", cell(&parameter.description));
     }
-    text.push_str(
-        "\n## With `--method curvature-space`\n\nSections and equations are those of McCrae and Singh (2008).\n\n\
+    text.push_str(&plain_table::<CurvatureSpaceOptions>(
+        "curvature-space",
+        "Sections and equations are those of McCrae and Singh (2008).",
+    ));
+    let baseline = "This method serves for comparison.";
+    text.push_str(&plain_table::<LaplacianOptions>("laplacian", baseline));
+    text.push_str(&plain_table::<CubicOptions>("cubic", baseline));
+    text.push_str(&plain_table::<MvcOptions>("mvc", baseline));
+    text
+}
+
+/// The parameters of a method that has no presets.
+fn plain_table<T: JsonSchema + Serialize + Default>(method: &str, source: &str) -> String {
+    let mut text = format!(
+        "\n## With `--method {method}`\n\n{source}\n\n\
          | parameter | unit | kind | default | meaning |\n| --- | --- | --- | ---: | --- |\n",
     );
-    let values = serde_json::to_value(CurvatureSpaceOptions::default()).unwrap_or(Value::Null);
-    for Parameter { name, unit, description, kind } in parameters::all::<CurvatureSpaceOptions>() {
+    let values = serde_json::to_value(T::default()).unwrap_or(Value::Null);
+    for Parameter { name, unit, description, kind } in parameters::all::<T>() {
         let value = parameters::show(&values[&name]);
         let _ = writeln!(text, "| `{name}` | {} | {} | {value} | {} |", cell(&unit), cell(&kind), cell(&description));
     }
     text
+}
+
+/// Text that is safe in a table.
+fn cell(text: &str) -> String {
+    text.replace('|', "\\|")
 }

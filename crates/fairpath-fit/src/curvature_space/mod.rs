@@ -11,9 +11,9 @@ mod segmentation;
 pub use options::{CurvatureEstimate, CurvatureSpaceOptions, Mode};
 
 use crate::clean::{Cleaned, clean};
-use crate::conclude::{Parts, describe, polyline, restored_spline};
+use crate::conclude::{Parts, closing_warnings, describe, polyline, restored_spline};
 use crate::direction::{is_backward, turned_round};
-use crate::options::{Closing, FitOptions};
+use crate::options::FitOptions;
 use crate::polyline::Polyline;
 use crate::result::{Fit, FitError, Report, Warning};
 use crate::shortest_path::circle::circle;
@@ -123,14 +123,8 @@ fn solve(
     piece_cost: f64,
     options: &CurvatureSpaceOptions,
 ) -> Result<Fit, FitError> {
-    let mut warnings = Vec::new();
+    let mut warnings = closing_warnings(track, options.stroke.closed);
     let mut warn = |code: &str, text: &str| warnings.push(Warning { code: code.into(), text: text.into() });
-    if track.trimmed > 0 {
-        warn("closed-by-trimming", &format!("the stroke's ends overshoot: {} points were cut off", track.trimmed));
-    }
-    if options.stroke.closed == Closing::Yes && track.shape == Shape::Open {
-        warn("not-closed", "the stroke was to be closed, but nothing would remain of it; it is fitted as an open one");
-    }
     let mut report = Report {
         points: stroke.points.len(),
         samples: stretches.iter().map(|s| s.places.len()).sum(),

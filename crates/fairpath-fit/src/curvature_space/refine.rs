@@ -62,6 +62,7 @@ pub(crate) fn refined(
         closed: shape != Shape::Open,
         end_factor: options.end_weight,
         short: Some(SHORT),
+        variation: 0.0,
         pins: [None; 2],
     };
     merge(&mut chain, EFFORT)?;

@@ -50,6 +50,8 @@ pub(crate) struct Chain<'a> {
     /// Weight of the ends and corners relative to the other data.
     pub(crate) end_factor: f64,
     pub(crate) short: Option<Shortness>,
+    /// Energy for the square of how fast curvature changes, summed along the chain, px⁶; zero where fairness comes from having few pieces.
+    pub(crate) variation: f64,
     /// Where the ends of a part of a longer chain must stay to meet the rest.
     pub(crate) pins: [Option<Pin>; 2],
 }
@@ -240,6 +242,7 @@ impl Chain<'_> {
         }
         self.add_shortness(&mut out);
         self.add_pins(&mut out);
+        self.add_variation(&mut out);
         out
     }
 
@@ -254,6 +257,20 @@ impl Chain<'_> {
                     out.resist(k, &[0.0, 0.0, 0.0, 0.0, 0.0, 1.0], missing, stiffness);
                 }
             }
+        }
+    }
+
+    /// Moreton's functional: each piece adds `(κ₁ − κ₀)² / length`.
+    fn add_variation(&self, out: &mut Measured) {
+        if self.variation == 0.0 {
+            return;
+        }
+        for (k, piece) in self.pieces.iter().enumerate() {
+            let root = 1.0 / piece.q[LENGTH].sqrt();
+            let change = (piece.q[KAPPA1] - piece.q[KAPPA0]) * root;
+            let mut row = [0.0; Q];
+            (row[KAPPA0], row[KAPPA1], row[LENGTH]) = (-root, root, -0.5 * change / piece.q[LENGTH]);
+            out.resist(k, &row, -change, self.variation);
         }
     }
 

@@ -15,9 +15,9 @@ mod search;
 mod transition;
 
 use crate::clean::{Cleaned, clean};
-use crate::conclude::{Parts, describe, polyline, restored, restored_spline};
+use crate::conclude::{Parts, closing_warnings, describe, polyline, restored, restored_spline};
 use crate::direction::{is_backward, turn_stages_round, turned_round};
-use crate::options::{ClosedSearch, Closing, FitOptions};
+use crate::options::{ClosedSearch, FitOptions};
 use crate::result::{self, Fit, FitError, Observer, Report, Stages, Step, Warning};
 use crate::stroke::Stroke;
 use crate::track::{Course, Shape, Track, prepare};
@@ -109,22 +109,10 @@ fn solve(
     mut stages: Option<&mut Stages>,
 ) -> Result<Fit, FitError> {
     observer.step(Step::Preprocess);
-    let mut warnings = Vec::new();
     let track = prepare(cleaned, options);
-    if options.closed == Closing::Yes && track.shape == Shape::Open {
-        warnings.push(Warning {
-            code: "not-closed".into(),
-            text: "the stroke was to be closed, but nothing would remain of it; it is fitted as an open one".into(),
-        });
-    }
+    let mut warnings = closing_warnings(&track, options.closed);
     let length = track.all.station(track.turn);
     let options = &FitOptions { free_error: options.free_error.min(options.free_share * length), ..options.clone() };
-    if track.trimmed > 0 {
-        warnings.push(Warning {
-            code: "closed-by-trimming".into(),
-            text: format!("the ends of the closed stroke overshoot: {} points were cut off", track.trimmed),
-        });
-    }
     let mut report = Report {
         points: stroke.points.len(),
         samples: track.turn + usize::from(track.shape == Shape::Open),

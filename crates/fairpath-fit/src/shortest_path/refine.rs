@@ -352,6 +352,7 @@ fn tried(chain: &Chain, measured: &Measured, change: &Change, options: &FitOptio
         closed: false,
         end_factor: chain.end_factor,
         short: chain.short,
+        variation: 0.0,
         pins,
     };
     if part.data.len() < 3 {

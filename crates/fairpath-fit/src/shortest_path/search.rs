@@ -246,7 +246,17 @@ pub(crate) fn chain<'a>(
     };
     let stiffness = SHORT_STIFFNESS * options.shortness_cost;
     let short = whole.map(|_| Shortness { length: options.short_length, stiffness });
-    Chain { pieces, joins, data, corners, closed, end_factor: options.end_factor, short, pins: [None; 2] }
+    Chain {
+        pieces,
+        joins,
+        data,
+        corners,
+        closed,
+        end_factor: options.end_factor,
+        short,
+        variation: 0.0,
+        pins: [None; 2],
+    }
 }
 
 /// Energy for a unit of the cost of shortness, px³.

@@ -5,8 +5,8 @@ use std::sync::Arc;
 
 use anyhow::{Result, bail};
 use fairpath_fit::{
-    Closing, CurvatureSpaceOptions, Fit, FitError, FitOptions, Observer, Stages, Stroke, fit_curvature_space,
-    fit_observed,
+    Closing, CubicOptions, CurvatureSpaceOptions, Fit, FitError, FitOptions, LaplacianOptions, MvcOptions, Observer,
+    Stages, Stroke, fit_cubic, fit_curvature_space, fit_laplacian, fit_mvc, fit_observed,
 };
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -52,24 +52,35 @@ impl Options for FitOptions {
     }
 }
 
-impl Options for CurvatureSpaceOptions {
-    fn stroke(&mut self) -> (&mut f64, &mut Closing) {
-        (&mut self.stroke.pixel_size, &mut self.stroke.closed)
-    }
+/// Implements [`Options`] for methods that have the options of strokes in `stroke` and are called by a function.
+macro_rules! plain_method {
+    ($options:ty, $fit:path, |$this:ident| $largest_deviation:expr) => {
+        impl Options for $options {
+            fn stroke(&mut self) -> (&mut f64, &mut Closing) {
+                (&mut self.stroke.pixel_size, &mut self.stroke.closed)
+            }
 
-    fn largest_deviation(&self) -> f64 {
-        self.max_error * self.stroke.pixel_size
-    }
+            fn largest_deviation(&self) -> f64 {
+                let $this = self;
+                $largest_deviation * self.stroke.pixel_size
+            }
 
-    fn fit(
-        &self,
-        stroke: &Stroke,
-        _observer: &mut dyn Observer,
-        _stages: Option<&mut Stages>,
-    ) -> std::result::Result<Fit, FitError> {
-        fit_curvature_space(stroke, self)
-    }
+            fn fit(
+                &self,
+                stroke: &Stroke,
+                _observer: &mut dyn Observer,
+                _stages: Option<&mut Stages>,
+            ) -> std::result::Result<Fit, FitError> {
+                $fit(stroke, self)
+            }
+        }
+    };
 }
+
+plain_method!(CurvatureSpaceOptions, fit_curvature_space, |o| o.max_error);
+plain_method!(LaplacianOptions, fit_laplacian, |_o| f64::INFINITY);
+plain_method!(CubicOptions, fit_cubic, |o| o.max_error);
+plain_method!(MvcOptions, fit_mvc, |o| o.max_error);
 
 /// The options of one of the methods, which it is.
 trait Chosen: Debug + Send + Sync {
@@ -121,6 +132,9 @@ impl MethodOptions {
         let options = match args.method {
             Method::ShortestPath => set(FitOptions::preset(args.preset), args, pixel_size)?,
             Method::CurvatureSpace => set(CurvatureSpaceOptions::default(), args, pixel_size)?,
+            Method::Laplacian => set(LaplacianOptions::default(), args, pixel_size)?,
+            Method::Cubic => set(CubicOptions::default(), args, pixel_size)?,
+            Method::Mvc => set(MvcOptions::default(), args, pixel_size)?,
         };
         // Any stroke shows an option that is out of range; a short one is cheap.
         let probe = Stroke::new("probe", vec![(0.0, 0.0).into(), (1.0, 0.0).into()]);

@@ -111,14 +111,8 @@ fn arguments_of_every_wrong_kind_are_refused() {
         (&[], "Usage"),
         (&["fit"], "INPUT"),
         (&["flatten", "in.json"], "unrecognized subcommand"),
-        (
-            &["fit", "in.json", "--method", "mvc"],
-            "the method mvc is not part of this version; use shortest-path or curvature-space",
-        ),
-        (
-            &["fit", "in.json", "--method", "magic"],
-            "there is no method of that name; use shortest-path or curvature-space",
-        ),
+        (&["fit", "in.json", "--method", "magic"], "possible values: shortest-path, curvature-space"),
+        (&["fit", "in.json", "--method", "mvc", "--set", "smoothing_length=-1"], "smoothing_length"),
         (&["fit", "in.json", "--preset", "fast"], "lines-arcs"),
         (&["fit", "in.json", "--closed", "maybe"], "auto"),
         (&["fit", "in.json", "--set", "closing_gab=3"], "near it: closing_gap"),
