@@ -9,7 +9,7 @@
 //! | read French curves (JSON, splines, drawings), write them | [`read_templates`], [`write_templates`] |
 //! | the sets of French curves that come along | [`shipped_templates`] |
 //! | convert | the two above, one after the other |
-//! | draw splines, a contact sheet, the steps of a fit | [`picture`] |
+//! | draw splines, a contact sheet, the steps of a fit, French curves and their pieces | [`picture`] |
 //! | write any file whole or not at all | [`write_whole`] |
 //! | bound what a hostile file may cost | [`Limits`] in [`ReadOptions`] |
 //! | JSON schemas of the formats | [`strokes_schema`], [`spline_schema`], [`templates_schema`] |

@@ -54,10 +54,10 @@ impl Unit {
     pub const fn pixel_size(self) -> f64 {
         match self {
             Self::Px => 1.0,
-            Self::Pt => 0.72,
-            Self::Mm => 0.254,
-            Self::Cm => 0.0254,
-            Self::In => 0.01,
+            Self::Pt => 72.0 / 100.0,
+            Self::Mm => 25.4 / 100.0,
+            Self::Cm => 2.54 / 100.0,
+            Self::In => 1.0 / 100.0,
             Self::M => 1.0,
             Self::Km => 0.001,
             Self::Ft => 1.0 / 0.3048,

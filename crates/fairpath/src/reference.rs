@@ -3,7 +3,9 @@
 use std::fmt::Write as _;
 
 use clap::CommandFactory;
-use fairpath_fit::{CurvatureSpaceOptions, FitOptions, Preset};
+use fairpath_fit::{CurvatureSpaceOptions, FitOptions, FrenchCurveOptions, Preset};
+use schemars::JsonSchema;
+use serde::Serialize;
 use serde_json::Value;
 
 use crate::args::{Cli, preset_name};
@@ -43,7 +45,6 @@ fn parameters_page() -> String {
         let _ = write!(text, " {} |", preset_name(preset));
     }
     let _ = writeln!(text, " meaning |\n| --- | --- | --- |{} --- |", " ---: |".repeat(Preset::ALL.len()));
-    let cell = |text: &str| text.replace('|', "\\|");
     for parameter in parameters::all::<FitOptions>() {
         let _ = write!(text, "| `{}` | {} | {} |", parameter.name, cell(&parameter.unit), cell(&parameter.kind));
         let usual = &values[0][&parameter.name];
@@ -56,13 +57,27 @@ fn parameters_page() -> String {
         let _ = writeln!(text, " {} |", cell(&parameter.description));
     }
     text.push_str(
-        "\n## With `--method curvature-space`\n\nSections and equations are those of McCrae and Singh (2008).\n\n\
-         | parameter | unit | kind | default | meaning |\n| --- | --- | --- | ---: | --- |\n",
+        "\n## With `--method curvature-space`\n\nSections and equations are those of McCrae and Singh (2008).\n\n",
     );
-    let values = serde_json::to_value(CurvatureSpaceOptions::default()).unwrap_or(Value::Null);
-    for Parameter { name, unit, description, kind } in parameters::all::<CurvatureSpaceOptions>() {
+    section_of::<CurvatureSpaceOptions>(&mut text);
+    text.push_str(
+        "\n## With `--method french-curve`\n\nSections and equations are those of McCrae and Singh (2011).\n\n",
+    );
+    section_of::<FrenchCurveOptions>(&mut text);
+    text
+}
+
+/// A line for each parameter of a method without presets.
+fn section_of<T: JsonSchema + Serialize + Default>(text: &mut String) {
+    text.push_str("| parameter | unit | kind | default | meaning |\n| --- | --- | --- | ---: | --- |\n");
+    let values = serde_json::to_value(T::default()).unwrap_or(Value::Null);
+    for Parameter { name, unit, description, kind } in parameters::all::<T>() {
         let value = parameters::show(&values[&name]);
         let _ = writeln!(text, "| `{name}` | {} | {} | {value} | {} |", cell(&unit), cell(&kind), cell(&description));
     }
-    text
+}
+
+/// Text as a cell of a table can hold it.
+fn cell(text: &str) -> String {
+    text.replace('|', "\\|")
 }
