@@ -1,8 +1,8 @@
 //! What the targets have in common.
 
 use fairpath_io::{
-    ReadOptions, SplineFormat, StrokeFormat, WriteOptions, encode_splines, encode_strokes, read_splines_from,
-    read_strokes_from,
+    ReadOptions, SplineFormat, StrokeFormat, TemplateOptions, WriteOptions, encode_splines, encode_strokes,
+    encode_templates, read_splines_from, read_strokes_from, read_templates_from,
 };
 
 /// Any bytes as splines in one format: read or refused, and what was read can be written in every format and reads back the same.
@@ -44,4 +44,20 @@ pub fn strokes(bytes: &[u8], format: StrokeFormat) {
     let back = read_strokes_from(&json[..], "fuzz", Some(StrokeFormat::Json), &options).expect("our own JSON is read");
     file.warnings.clear();
     assert_eq!(file, back);
+}
+
+/// Any bytes as a set of French curves, its own format, splines or a drawing: read or refused, and what was read can be written and reads
+/// back the same.
+///
+/// # Panics
+/// When it does not.
+pub fn templates(bytes: &[u8]) {
+    let mut options = TemplateOptions::default();
+    options.read.limits.max_points = 2_000;
+    options.read.limits.max_nodes = 2_000;
+    let Ok(file) = read_templates_from(bytes, "fuzz", &options) else { return };
+    let json = encode_templates(&file.set).expect("what was read is finite");
+    let back = read_templates_from(&json[..], "fuzz", &options).expect("our own JSON is read");
+    // A set without a name is called like its file.
+    assert_eq!(back.set, file.set);
 }

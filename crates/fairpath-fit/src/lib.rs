@@ -37,7 +37,10 @@ mod walk;
 
 pub use baseline::{CubicOptions, LaplacianOptions, MvcOptions};
 pub use curvature_space::{CurvatureEstimate, CurvatureSpaceOptions, Mode};
-pub use french_curve::{Template, TemplateError, TemplatePiece, TemplateSet};
+pub use french_curve::{
+    CornerSource, Flips, FrenchCurveFit, FrenchCurveOptions, Laying, PieceSearch, Template, TemplateError,
+    TemplatePiece, TemplateSet,
+};
 pub use options::{ClosedSearch, Closing, Deviation, FitOptions, Preset, Resampling, Search, Transitions};
 pub use result::{Candidate, Fit, FitError, Observer, Report, Stages, Step, Warning};
 pub use stroke::Stroke;
@@ -77,6 +80,22 @@ pub fn fit_observed(
 /// As [`fit`].
 pub fn fit_curvature_space(stroke: &Stroke, options: &CurvatureSpaceOptions) -> Result<Fit, FitError> {
     curvature_space::fit(stroke, options)
+}
+
+/// The curve of a stroke made of pieces of French curves (McCrae and Singh 2011), in the stroke's unit and frame, and where the pieces come from. G2
+/// away from corners. Lengths among the options, and those of the templates, are in px of `options.stroke.pixel_size` units.
+///
+/// Deviations are not bounded beforehand; the report states what was measured, and a warning says where it is large. What the report says of
+/// graphs stays zero.
+///
+/// # Errors
+/// As [`fit`].
+pub fn fit_french_curve(
+    stroke: &Stroke,
+    set: &TemplateSet,
+    options: &FrenchCurveOptions,
+) -> Result<FrenchCurveFit, FitError> {
+    french_curve::fit(stroke, set, options)
 }
 
 /// The stroke after Laplacian smoothing: a polyline between corners, for comparison.

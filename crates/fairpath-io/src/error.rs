@@ -71,6 +71,14 @@ pub enum Error {
         /// What does not fit.
         source: SplineError,
     },
+    /// Shapes in the file cannot be French curves; all that are wrong are named, each with its place.
+    #[error("{file}: {}", listed(.problems))]
+    Templates {
+        /// The file's name.
+        file: String,
+        /// Place, what is wrong and what to do, in the order of the file.
+        problems: Vec<String>,
+    },
     /// What is to be written cannot be expressed in the format.
     #[error("{format}: {place}: {problem}")]
     Unwritable {
@@ -83,12 +91,32 @@ pub enum Error {
     },
 }
 
+/// Lines of a text beyond this many are only counted.
+const MOST_LISTED: usize = 30;
+
+/// All problems in one text, a line each if there are several.
+fn listed(problems: &[String]) -> String {
+    if let [problem] = problems {
+        return problem.clone();
+    }
+    let mut text = format!("{} problems:", problems.len());
+    for problem in problems.iter().take(MOST_LISTED) {
+        text.push_str("\n  ");
+        text.push_str(problem);
+    }
+    if problems.len() > MOST_LISTED {
+        text.push_str(&format!("\n  … and {} more", problems.len() - MOST_LISTED));
+    }
+    text
+}
+
 /// An error of a parser, which does not know the file's name.
 #[derive(Debug)]
 pub(crate) enum Fault {
     Malformed { place: String, problem: String },
     OverLimit { place: String, what: &'static str, max: u64, limit: &'static str },
     Spline { name: String, source: SplineError },
+    Templates(Vec<String>),
     Io(io::Error),
 }
 
@@ -103,6 +131,7 @@ impl Fault {
             Self::Malformed { place, problem } => Error::Malformed { file, place, problem },
             Self::OverLimit { place, what, max, limit } => Error::OverLimit { file, place, what, max, limit },
             Self::Spline { name, source } => Error::Spline { file, name, source },
+            Self::Templates(problems) => Error::Templates { file, problems },
             Self::Io(source) => Error::Read { file, source },
         }
     }

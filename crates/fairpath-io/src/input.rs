@@ -144,6 +144,11 @@ impl Budget {
         Self { left: limits.max_items, max: limits.max_items, what: "strokes or splines", limit: "max_items" }
     }
 
+    pub(crate) fn templates(limits: &Limits) -> Self {
+        let max = limits.max_templates;
+        Self { left: max, max, what: "French curves", limit: "max_templates" }
+    }
+
     pub(crate) fn nodes(limits: &Limits) -> Self {
         Self { left: limits.max_nodes, max: limits.max_nodes, what: "elements", limit: "max_nodes" }
     }

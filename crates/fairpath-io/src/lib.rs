@@ -6,11 +6,13 @@
 //! | write strokes (JSON, SVG, text) | [`write_strokes`], [`encode_strokes`] |
 //! | read splines (JSON, our SVG, CSV) | [`read_splines`], [`read_splines_from`] |
 //! | write splines (JSON, SVG, CSV, DXF, PNG) | [`write_splines`], [`encode_splines`] |
+//! | read French curves (JSON, splines, drawings), write them | [`read_templates`], [`write_templates`] |
+//! | the sets of French curves that come along | [`shipped_templates`] |
 //! | convert | the two above, one after the other |
-//! | draw splines, a contact sheet, the steps of a fit | [`picture`] |
+//! | draw splines, a contact sheet, the steps of a fit, French curves and their pieces | [`picture`] |
 //! | write any file whole or not at all | [`write_whole`] |
 //! | bound what a hostile file may cost | [`Limits`] in [`ReadOptions`] |
-//! | JSON schemas of the formats | [`strokes_schema`], [`spline_schema`] |
+//! | JSON schemas of the formats | [`strokes_schema`], [`spline_schema`], [`templates_schema`] |
 //!
 //! Numbers are f64 all the way and are printed so that they read back to the same bits, except in pictures and where a curve is
 //! approximated, which is always within a stated tolerance. The direction of y is a label ([`YAxis`]): nothing is flipped unasked.
@@ -24,7 +26,7 @@
 //! let line = Segment::line(Point::new(0.0, 0.0), 0.0, 10.0);
 //! let arc = Segment::arc(line.end(), 0.0, 15.0, 0.1);
 //! let spline = Spline::new(vec![line, arc], vec![Continuity::G1], false)?;
-//! let entry = SplineEntry { name: "hook".into(), method: "by-hand".into(), spline, report: None, warnings: vec![] };
+//! let entry = SplineEntry { name: "hook".into(), method: "by-hand".into(), spline, report: None, templates: None, warnings: vec![] };
 //! let file = SplineFile { splines: vec![entry], ..SplineFile::default() };
 //!
 //! let svg = fairpath_io::encode_splines(&file, SplineFormat::Svg, None, &WriteOptions::default())?;
@@ -35,6 +37,7 @@
 
 mod atomic;
 mod drawable;
+mod drawn_spline;
 mod error;
 mod geodetic;
 mod input;
@@ -56,18 +59,24 @@ mod strokes_json;
 mod strokes_svg;
 mod strokes_text;
 mod svg_geometry;
+mod templates;
+mod templates_json;
 mod unit;
 mod xml;
 
 pub use atomic::write_whole;
 pub use error::Error;
 pub use limits::{Limits, ReadOptions};
-pub use schema::{spline_schema, strokes_schema};
+pub use schema::{spline_schema, strokes_schema, templates_schema};
 pub use spline_dxf::{DxfEntities, DxfOptions};
-pub use spline_file::{Failure, Milliseconds, SplineEntry, SplineFile, SplineReport};
+pub use spline_file::{Failure, Milliseconds, SplineEntry, SplineFile, SplineReport, UsedPiece, UsedTemplates};
 pub use splines::{
     Encoded, SplineFormat, WriteOptions, encode_splines, read_splines, read_splines_from, write_splines,
 };
 pub use stroke_file::StrokeFile;
 pub use strokes::{StrokeFormat, encode_strokes, read_strokes, read_strokes_from, write_strokes};
+pub use templates::{
+    SHIPPED_TEMPLATES, TemplateFile, TemplateOptions, encode_templates, read_templates, read_templates_from,
+    shipped_templates, write_templates,
+};
 pub use unit::{Unit, YAxis};

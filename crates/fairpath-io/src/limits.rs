@@ -15,6 +15,8 @@ pub struct Limits {
     pub max_points: u64,
     /// Most strokes, splines or failures of a file. Default one million.
     pub max_items: u64,
+    /// Most French curves of a set. Default 1000: a stroke is compared with each of them.
+    pub max_templates: u64,
     /// Most XML nodes (elements, texts, comments) of an SVG or InkML file, each use of an element counted. Default four million.
     pub max_nodes: u64,
     /// Deepest nesting of SVG elements, references by `use` included. Default 256.
@@ -28,6 +30,7 @@ impl Default for Limits {
             max_line_bytes: 1 << 20,
             max_points: 20_000_000,
             max_items: 1_000_000,
+            max_templates: 1000,
             max_nodes: 4_000_000,
             max_depth: 256,
         }

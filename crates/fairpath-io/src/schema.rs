@@ -2,6 +2,7 @@
 
 use crate::spline_json::SplinesRecord;
 use crate::strokes_json::StrokesRecord;
+use crate::templates_json::TemplatesRecord;
 use schemars::{JsonSchema, generate::SchemaSettings};
 
 /// The JSON schema (draft 2020-12) of `fairpath-strokes 1`.
@@ -14,6 +15,12 @@ pub fn strokes_schema() -> String {
 #[must_use]
 pub fn spline_schema() -> String {
     schema::<SplinesRecord>()
+}
+
+/// The JSON schema (draft 2020-12) of `fairpath-templates 1`.
+#[must_use]
+pub fn templates_schema() -> String {
+    schema::<TemplatesRecord>()
 }
 
 fn schema<T: JsonSchema>() -> String {

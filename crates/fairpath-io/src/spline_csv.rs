@@ -158,6 +158,7 @@ impl Open {
                     method: String::new(),
                     spline,
                     report: None,
+                    templates: None,
                     warnings: Vec::new(),
                 });
                 Ok(())

@@ -1,8 +1,8 @@
 //! Splines of one file with their reports, and the strokes that have none.
 
 use crate::unit::{Unit, YAxis};
-use fairpath_curve::Spline;
-use fairpath_fit::{Fit, FitError, Report, Warning};
+use fairpath_curve::{Similarity, Spline, Vec2};
+use fairpath_fit::{Fit, FitError, Report, TemplatePiece, TemplateSet, Warning};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -32,6 +32,8 @@ pub struct SplineEntry {
     pub spline: Spline,
     /// Figures, where the method gave any.
     pub report: Option<SplineReport>,
+    /// The French curves that it was drawn with, if it was.
+    pub templates: Option<UsedTemplates>,
     /// What the reader of the result should know.
     pub warnings: Vec<Warning>,
 }
@@ -46,9 +48,86 @@ impl SplineEntry {
             method: method.into(),
             spline,
             report: Some(SplineReport { figures: report, ms }),
+            templates: None,
             warnings,
         }
     }
+}
+
+/// Which French curves a spline was drawn with, and where each lay.
+#[derive(Clone, Debug, PartialEq)]
+pub struct UsedTemplates {
+    /// What the set is called.
+    pub set: String,
+    /// The parts that were used, in order along the spline.
+    pub pieces: Vec<UsedPiece>,
+}
+
+impl UsedTemplates {
+    /// The pieces of a fit with the names that `set` has for them; a piece of no template of the set is left out.
+    #[must_use]
+    pub fn new(set: &TemplateSet, pieces: &[TemplatePiece]) -> Self {
+        let named = |piece: &TemplatePiece| {
+            let template = set.templates().get(piece.template)?.name().to_owned();
+            let TemplatePiece { offset, length, backward, turned_over, transform, span, .. } = *piece;
+            Some(UsedPiece { template, offset, length, backward, turned_over, transform, span })
+        };
+        Self { set: set.name().into(), pieces: pieces.iter().filter_map(named).collect() }
+    }
+}
+
+/// A part of a French curve laid over a part of a stroke.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[schemars(rename = "Piece")]
+pub struct UsedPiece {
+    /// The template's name.
+    pub template: String,
+    /// Arc length along the template at which the part begins, in its own direction, px. On a closed template `offset + length` may go past
+    /// its end and runs on from its start.
+    pub offset: f64,
+    /// Length of the part along the template, px.
+    pub length: f64,
+    /// Whether the part is run through against the template's own direction, from `offset + length` to `offset`.
+    #[serde(default)]
+    pub backward: bool,
+    /// Whether the template is turned over like a sheet.
+    #[serde(default)]
+    pub turned_over: bool,
+    /// Lays the template, px, over the stroke, in the file's unit and frame.
+    #[serde(with = "SimilarityRecord")]
+    #[schemars(with = "SimilarityRecord")]
+    pub transform: Similarity,
+    /// Arc lengths along the spline between which the part is seen, in the file's unit.
+    pub span: [f64; 2],
+}
+
+/// A similarity as it is written: y changes its sign first if `mirror` says so, then lengths are multiplied by `scale`, then it is turned
+/// about the origin by `rotation`, then moved by `x` and `y`.
+#[derive(Serialize, Deserialize, JsonSchema)]
+#[serde(remote = "Similarity")]
+#[schemars(rename = "Transform")]
+struct SimilarityRecord {
+    /// Whether y changes its sign first.
+    mirror: bool,
+    /// Factor of lengths, positive.
+    scale: f64,
+    /// Radians from x towards y.
+    rotation: f64,
+    /// Move by x and y.
+    #[serde(flatten, with = "VectorRecord")]
+    #[schemars(with = "VectorRecord")]
+    translation: Vec2,
+}
+
+/// A vector as it is written.
+#[derive(Serialize, Deserialize, JsonSchema)]
+#[serde(remote = "Vec2")]
+#[schemars(rename = "Vector")]
+struct VectorRecord {
+    /// Along x, in the file's unit.
+    x: f64,
+    /// Along y, in the file's unit.
+    y: f64,
 }
 
 /// The report on a fit with the time that it took.

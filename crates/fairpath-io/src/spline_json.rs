@@ -3,10 +3,10 @@
 use crate::error::{Error, Fault};
 use crate::input::Budget;
 use crate::limits::{Limits, ReadOptions};
-use crate::spline_file::{Failure, Milliseconds, SplineEntry, SplineFile, SplineReport};
+use crate::spline_file::{Failure, Milliseconds, SplineEntry, SplineFile, SplineReport, UsedPiece, UsedTemplates};
 use crate::strokes_json::{check_format, check_version, json_fault};
 use crate::unit::{Unit, YAxis};
-use fairpath_curve::{Continuity, Segment, Spline};
+use fairpath_curve::{Continuity, Segment, Similarity, Spline};
 use fairpath_fit::{Report, Warning};
 use schemars::{JsonSchema, Schema};
 use serde::de::{Error as _, IgnoredAny, MapAccess, Visitor};
@@ -61,6 +61,12 @@ struct SplineRecord {
     /// Figures about the fit.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     report: Option<ReportRecord>,
+    /// The name of the set of French curves that it was drawn with, if it was.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    template_set: Option<String>,
+    /// The parts of French curves that it was drawn with, in order along it; only beside `template_set`.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pieces: Vec<UsedPiece>,
     /// What the reader of the result should know.
     #[serde(default)]
     warnings: Vec<Warning>,
@@ -182,15 +188,33 @@ fn from_record(record: SplinesRecord, limits: &Limits) -> Result<SplineFile, Fau
     let mut file = SplineFile { unit, y, splines: Vec::with_capacity(splines.len()), failures, warnings: Vec::new() };
     for record in splines {
         items.spend(|| format!("spline {:?}", record.name))?;
-        let SplineRecord { name, method, closed, segments, joins, report, warnings } = record;
+        let SplineRecord { name, method, closed, segments, joins, report, template_set, pieces, warnings } = record;
         let spline = match Spline::new(segments, joins, closed) {
             Ok(spline) => spline,
             Err(source) => return Err(Fault::Spline { name, source }),
         };
         let report = report.map(|r| SplineReport { figures: r.figures, ms: r.ms });
-        file.splines.push(SplineEntry { name, method, spline, report, warnings });
+        let templates = used_templates(&name, template_set, pieces)?;
+        file.splines.push(SplineEntry { name, method, spline, report, templates, warnings });
     }
     Ok(file)
+}
+
+/// The French curves of a spline, checked as far as that is possible without them.
+fn used_templates(name: &str, set: Option<String>, pieces: Vec<UsedPiece>) -> Result<Option<UsedTemplates>, Fault> {
+    let fault = |problem: String| Err(Fault::new(format_args!("spline {name:?}"), problem));
+    for (i, piece) in pieces.iter().enumerate() {
+        let expected = match piece {
+            _ if set.is_none() => "no pieces without the `template_set` that they are of",
+            UsedPiece { offset, .. } if *offset < 0.0 => "an `offset` of at least 0",
+            UsedPiece { length, .. } if *length <= 0.0 => "a `length` above 0",
+            UsedPiece { span: [from, to], .. } if from > to => "a `span` that does not end before it begins",
+            UsedPiece { transform, .. } if transform.scale <= 0.0 => "a transform with a `scale` above 0",
+            _ => continue,
+        };
+        return fault(format!("piece {} of {:?}: expected {expected}", i + 1, piece.template));
+    }
+    Ok(set.map(|set| UsedTemplates { set, pieces }))
 }
 
 pub(crate) fn write(file: &SplineFile) -> Result<Vec<u8>, Error> {
@@ -204,6 +228,8 @@ pub(crate) fn write(file: &SplineFile) -> Result<Vec<u8>, Error> {
             segments: entry.spline.segments().to_vec(),
             joins: entry.spline.joins().to_vec(),
             report: entry.report.clone().map(|r| ReportRecord { figures: r.figures, ms: r.ms }),
+            template_set: entry.templates.as_ref().map(|used| used.set.clone()),
+            pieces: entry.templates.as_ref().map_or(Vec::new(), |used| used.pieces.clone()),
             warnings: entry.warnings.clone(),
         });
     }
@@ -220,14 +246,20 @@ pub(crate) fn write(file: &SplineFile) -> Result<Vec<u8>, Error> {
 
 /// JSON has no word for what is not finite: a figure that is must not become `null` unseen.
 fn check_writable(entry: &SplineEntry) -> Result<(), Error> {
+    let fail = |problem| Err(Error::Unwritable { format: "JSON", place: format!("spline {:?}", entry.name), problem });
+    for (i, piece) in entry.templates.iter().flat_map(|used| &used.pieces).enumerate() {
+        let Similarity { scale, rotation, translation, .. } = piece.transform;
+        let numbers = [piece.offset, piece.length, scale, rotation, translation.x, translation.y];
+        if !numbers.iter().chain(&piece.span).all(|v| v.is_finite()) {
+            return fail(format!("piece {} has a number that is not finite; leave it out or repair it", i + 1));
+        }
+    }
     let Some(report) = &entry.report else { return Ok(()) };
     let figures = serde_json::to_value(&report.figures).unwrap_or_default();
     let ms = serde_json::to_value(report.ms.unwrap_or_default()).unwrap_or_default();
     let mut all = [&figures, &ms].into_iter().filter_map(Value::as_object).flatten();
     if let Some((key, _)) = all.find(|(_, v)| v.is_null()) {
-        let place = format!("spline {:?}", entry.name);
-        let problem = format!("the report's {key} is not a finite number; leave the report out or repair it");
-        return Err(Error::Unwritable { format: "JSON", place, problem });
+        return fail(format!("the report's {key} is not a finite number; leave the report out or repair it"));
     }
     Ok(())
 }

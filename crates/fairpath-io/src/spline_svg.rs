@@ -17,7 +17,7 @@ use std::collections::HashSet;
 use std::fmt::Write;
 
 /// The namespace of our metadata.
-const NAMESPACE: &str = "urn:fairpath:spline:1";
+pub(crate) const NAMESPACE: &str = "urn:fairpath:spline:1";
 /// The element in the metadata.
 const ELEMENT: &str = "document";
 

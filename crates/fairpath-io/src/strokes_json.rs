@@ -217,6 +217,7 @@ pub(crate) fn check_format<E: de::Error>(found: &str, expected: &str) -> Result<
     let hint = match found {
         FORMAT => "; these are strokes: fit them first",
         "fairpath-spline" => "; these are splines, which are fitted already: convert them instead",
+        "fairpath-templates" => "; these are French curves, to fit strokes with: give them to --templates",
         _ => "",
     };
     Err(E::custom(format_args!("the format is {found:?}, expected {expected:?}{hint}")))

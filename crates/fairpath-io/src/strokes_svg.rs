@@ -28,7 +28,24 @@ const Y: &str = "data-y";
 /// Attribute of a stroke: its name, where it would not do as an id.
 const NAME: &str = "data-name";
 
+/// A subpath as it is drawn, in the frame of the outermost element.
+pub(crate) struct Subpath {
+    pub(crate) name: String,
+    /// Where in the file it is.
+    pub(crate) place: String,
+    pub(crate) path: BezPath,
+}
+
 pub(crate) fn read(text: &str, options: &ReadOptions) -> Result<StrokeFile, Fault> {
+    Ok(read_drawing(text, options, false)?.0)
+}
+
+/// The subpaths that [`read`] would make strokes of, with their lines and Béziers as they are, beside a file without strokes.
+pub(crate) fn read_subpaths(text: &str, options: &ReadOptions) -> Result<(StrokeFile, Vec<Subpath>), Fault> {
+    read_drawing(text, options, true)
+}
+
+fn read_drawing(text: &str, options: &ReadOptions, as_drawn: bool) -> Result<(StrokeFile, Vec<Subpath>), Fault> {
     let document = xml::parse(text, &options.limits)?;
     let root = document.root_element();
     if root.tag_name().name() != "svg" {
@@ -43,6 +60,7 @@ pub(crate) fn read(text: &str, options: &ReadOptions) -> Result<StrokeFile, Faul
         by_id: ids(root),
         passed_over: BTreeMap::new(),
         file: StrokeFile::default(),
+        as_drawn: as_drawn.then(Vec::new),
     };
     let frame = Frame::of(root).map_err(|problem| Fault::new(xml::place(root), problem))?;
     reader.file.unit = frame.unit;
@@ -55,7 +73,7 @@ pub(crate) fn read(text: &str, options: &ReadOptions) -> Result<StrokeFile, Faul
             text: format!("{count} <{tag}> left out: only path, polyline, polygon and line are strokes"),
         });
     }
-    Ok(reader.file)
+    Ok((reader.file, reader.as_drawn.unwrap_or_default()))
 }
 
 /// The elements that can be referred to; of a repeated id the first counts.
@@ -152,6 +170,8 @@ struct Reader<'a, 'i> {
     by_id: HashMap<&'a str, Node<'a, 'i>>,
     passed_over: BTreeMap<&'a str, usize>,
     file: StrokeFile,
+    /// Where subpaths go that are wanted as drawn; without it, they become strokes.
+    as_drawn: Option<Vec<Subpath>>,
 }
 
 impl<'a, 'i: 'a> Reader<'a, 'i> {
@@ -280,7 +300,10 @@ impl<'a, 'i: 'a> Reader<'a, 'i> {
             (Some(user), Some(own)) => format!("{user}/{own}"),
             (Some(user), None) => user.clone(),
             (None, Some(own)) => own,
-            (None, None) => format!("{}/{}", node.tag_name().name(), self.file.strokes.len()),
+            (None, None) => {
+                let before = self.as_drawn.as_ref().map_or(self.file.strokes.len(), Vec::len);
+                format!("{}/{before}", node.tag_name().name())
+            }
         };
         for (i, mut path) in paths.into_iter().enumerate() {
             self.items.spend(at)?;
@@ -290,12 +313,17 @@ impl<'a, 'i: 'a> Reader<'a, 'i> {
             if !path.is_finite() {
                 return Err(Fault::new(at(), "a coordinate is not finite once transformed; expected smaller numbers"));
             }
+            let name = if several { format!("{base}/{i}") } else { base.clone() };
+            if let Some(as_drawn) = &mut self.as_drawn {
+                self.points.spend_many(path.elements().len(), at)?;
+                as_drawn.push(Subpath { name, place: at(), path });
+                continue;
+            }
             let Some(points) = flatten(&path, self.options.flatten_tolerance, self.points.left()) else {
                 let max = self.options.limits.max_points;
                 return Err(Fault::OverLimit { place: at(), what: "points", max, limit: "max_points" });
             };
             self.points.spend_many(points.len(), at)?;
-            let name = if several { format!("{base}/{i}") } else { base.clone() };
             self.file.strokes.push(Stroke::new(name, points));
         }
         Ok(())

@@ -46,6 +46,24 @@ impl Unit {
         }
     }
 
+    /// Size in this unit of a pixel of a 100 dpi screen, in which lengths among the fitter's parameters and those of French curves are.
+    ///
+    /// On paper that is a hundredth of an inch. Drawings in metres, kilometres and feet are maps, where it would be absurd: there a pixel
+    /// is a metre.
+    #[must_use]
+    pub const fn pixel_size(self) -> f64 {
+        match self {
+            Self::Px => 1.0,
+            Self::Pt => 72.0 / 100.0,
+            Self::Mm => 25.4 / 100.0,
+            Self::Cm => 2.54 / 100.0,
+            Self::In => 1.0 / 100.0,
+            Self::M => 1.0,
+            Self::Km => 0.001,
+            Self::Ft => 1.0 / 0.3048,
+        }
+    }
+
     /// The unit of that word, if it is one.
     #[must_use]
     pub fn from_word(word: &str) -> Option<Self> {

@@ -84,6 +84,7 @@ fn spline_file() -> impl Strategy<Value = SplineFile> {
                 method: String::new(),
                 spline,
                 report: None,
+                templates: None,
                 warnings: Vec::new(),
             })
             .collect(),

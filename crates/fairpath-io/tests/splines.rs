@@ -4,12 +4,12 @@
 mod example;
 
 use example::{drop_shape, entry, ribbon, shapes};
-use fairpath_curve::{Continuity, Point, Segment, Spline};
+use fairpath_curve::{Continuity, Point, Segment, Similarity, Spline, Vec2};
 use fairpath_fit::{Fit, FitError, Report, Warning};
 use fairpath_io::{
-    Encoded, Error, Failure, Milliseconds, ReadOptions, SplineEntry, SplineFile, SplineFormat, Unit, WriteOptions,
-    YAxis, encode_splines, read_splines_from, read_strokes_from, spline_schema, strokes_schema, write_splines,
-    write_whole,
+    Encoded, Error, Failure, Milliseconds, ReadOptions, SplineEntry, SplineFile, SplineFormat, Unit, UsedPiece,
+    UsedTemplates, WriteOptions, YAxis, encode_splines, read_splines_from, read_strokes_from, spline_schema,
+    strokes_schema, templates_schema, write_splines, write_whole,
 };
 use std::path::Path;
 
@@ -38,6 +38,19 @@ fn full() -> SplineFile {
         fit,
         Some(ms),
     ));
+    let transform = Similarity { mirror: true, scale: 0.254, rotation: -0.1, translation: Vec2::new(1e9, 0.1 + 0.2) };
+    let piece = UsedPiece {
+        template: "sickle \"é\"".into(),
+        offset: 0.0,
+        length: 1.0 / 3.0,
+        backward: true,
+        turned_over: true,
+        transform,
+        span: [0.0, 0.1],
+    };
+    let templates =
+        UsedTemplates { set: "burmester".into(), pieces: vec![piece.clone(), UsedPiece { offset: 7.5, ..piece }] };
+    file.splines.push(SplineEntry { templates: Some(templates), ..entry("with French curves", ribbon((0.0, 0.0))) });
     let error = FitError::TooShort { points: 3, extent: 0.0 };
     file.failures.push(Failure::from_error("dot", &error));
     file
@@ -74,6 +87,7 @@ fn json_looks_as_the_contract_says() {
         r#""report":{"points":120,"max_deviation":1.7,"rms_deviation":0.30000000000000004,"#,
         r#""ms":{"preprocess":0.1,"candidates":0.0,"graph":0.0,"search":0.0,"merge":0.0,"total":1.4}}"#,
         r#""warnings":[{"code":"closed-by-trimming","text":"#,
+        r#""template_set":"burmester","pieces":[{"template":"sickle \"é\"","offset":0.0,"length":0.3333333333333333,"backward":true,"turned_over":true,"transform":{"mirror":true,"scale":0.254,"rotation":-0.1,"x":1000000000.0,"y":0.30000000000000004},"span":[0.0,0.1]},"#,
         r#""failures":[{"name":"dot","code":"too-short","text":"#,
     ] {
         assert!(text.contains(part), "{part} is not in {text}");
@@ -240,7 +254,11 @@ fn output_follows_links_and_keeps_permissions() {
 
 #[test]
 fn checked_in_schemas_are_those_of_the_code() {
-    for (name, schema) in [("fairpath-strokes-1", strokes_schema()), ("fairpath-spline-1", spline_schema())] {
+    for (name, schema) in [
+        ("fairpath-strokes-1", strokes_schema()),
+        ("fairpath-spline-1", spline_schema()),
+        ("fairpath-templates-1", templates_schema()),
+    ] {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("schemas/{name}.schema.json"));
         if std::env::var_os("UPDATE_SCHEMAS").is_some() {
             write_whole(&path, schema.as_bytes()).unwrap();
@@ -264,4 +282,34 @@ fn a_closed_spline_of_one_segment_goes_through_every_format() {
             );
         }
     }
+}
+
+#[test]
+fn pieces_that_cannot_be_are_refused_with_their_place() {
+    let text = String::from_utf8(write(&full(), SplineFormat::Json)).unwrap();
+    for (good, bad, said) in [
+        (r#""offset":7.5"#, r#""offset":-7.5"#, "piece 2 of \"sickle \\\"é\\\"\": expected an `offset` of at least 0"),
+        (
+            r#""length":0.3333333333333333"#,
+            r#""length":0"#,
+            "piece 1 of \"sickle \\\"é\\\"\": expected a `length` above 0",
+        ),
+        (r#""span":[0.0,0.1]"#, r#""span":[0.2,0.1]"#, "a `span` that does not end before it begins"),
+        (r#""scale":0.254"#, r#""scale":0"#, "a `scale` above 0"),
+        (r#""template_set":"burmester","#, "", "without the `template_set`"),
+        (r#""scale":0.254,"#, "", "missing field `scale`"),
+    ] {
+        assert!(text.contains(good), "{good}");
+        let error = read(text.replacen(good, bad, 1).as_bytes(), None).unwrap_err().to_string();
+        assert!(error.contains(said), "{error}");
+    }
+    let mut file = full();
+    let broken =
+        file.splines.iter_mut().filter_map(|e| e.templates.as_mut()).flat_map(|t| &mut t.pieces).next().unwrap();
+    broken.span[1] = f64::NAN;
+    let error = encode_splines(&file, SplineFormat::Json, None, &WriteOptions::default()).unwrap_err().to_string();
+    assert!(
+        error.contains("\"with French curves\"") && error.contains("piece 1 has a number that is not finite"),
+        "{error}"
+    );
 }

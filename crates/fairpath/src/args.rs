@@ -26,6 +26,8 @@ pub enum Command {
     Fit(FitArgs),
     /// Write a spline file in another format
     Convert(ConvertArgs),
+    /// List, author or draw sets of French curves
+    Templates(TemplatesArgs),
 }
 
 /// Arguments of `fairpath fit`.
@@ -55,6 +57,11 @@ pub struct FitArgs {
     /// How to fit
     #[arg(long, value_name = "METHOD", default_value = "shortest-path")]
     pub method: Method,
+
+    /// French curves for the method french-curve: burmester, rectilinear, automotive, or a file (see `fairpath
+    /// templates`); burmester by default
+    #[arg(long, value_name = "SET")]
+    pub templates: Option<PathBuf>,
 
     /// The set of parameters to start from
     #[arg(long, value_name = "PRESET", default_value = "default", value_parser = preset())]
@@ -89,6 +96,10 @@ pub struct FitArgs {
     /// Lay the strokes of the picture out side by side, each scaled to fit
     #[arg(long, requires = "picture")]
     pub sheet: bool,
+
+    /// Show in the picture how the French curves lie over the strokes and which part of each was used
+    #[arg(long, requires = "picture", conflicts_with = "sheet")]
+    pub templates_shown: bool,
 
     /// Also draw the steps of the method for each stroke, as pictures in this folder
     #[arg(long, value_name = "DIR")]
@@ -128,6 +139,40 @@ pub struct ConvertArgs {
     pub flip_y: bool,
 }
 
+/// Arguments of `fairpath templates`.
+///
+/// Without `-o` a table of one line per French curve goes to standard output.
+#[derive(Args, Debug)]
+#[command(after_help = EXIT_CODES)]
+pub struct TemplatesArgs {
+    /// Sets of French curves: burmester, rectilinear, automotive, or files. A file may be a set (fairpath-templates 1), splines
+    /// as `fairpath fit` writes them (JSON, SVG, CSV; each becomes a French curve), or a drawing (SVG; each subpath
+    /// does); `-` is standard input. Without any, the sets that come along
+    #[arg(value_name = "SET")]
+    pub inputs: Vec<PathBuf>,
+
+    /// Where the French curves of all inputs go as one set: json, or a picture as svg or png; `-` is standard output
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Option<PathBuf>,
+
+    /// Format of the output, where the extension does not say it
+    #[arg(long, value_name = "FORMAT", requires = "output")]
+    pub format: Option<OutputFormat>,
+
+    /// What the set is called; by default as the input, or as the output if there are several inputs
+    #[arg(long, value_name = "NAME", requires = "output")]
+    pub name: Option<String>,
+
+    /// Size of one pixel of a 100 dpi screen, in the files' unit: all lengths are divided by it, since those of French
+    /// curves are in px. By default it comes from each file's unit
+    #[arg(long, value_name = "S")]
+    pub pixel_size: Option<f64>,
+
+    /// Draw the curvature comb in the picture
+    #[arg(long, requires = "output")]
+    pub comb: bool,
+}
+
 /// The formats that curves are written in.
 #[derive(ValueEnum, Clone, Copy, Debug, PartialEq, Eq)]
 pub enum OutputFormat {
@@ -157,6 +202,8 @@ pub enum Method {
     ShortestPath,
     /// Clothoids by pieces of linear curvature (McCrae and Singh 2008)
     CurvatureSpace,
+    /// Parts of French curves (McCrae and Singh 2011)
+    FrenchCurve,
     /// For comparison: each point towards the middle of its neighbours
     Laplacian,
     /// For comparison: least-squares cubic Béziers (Schneider 1990)

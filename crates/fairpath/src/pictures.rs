@@ -2,8 +2,8 @@
 
 use anyhow::Result;
 use fairpath_curve::Spline;
-use fairpath_fit::{Stages, Stroke, Warning};
-use fairpath_io::picture::{Comb, Layout, PictureOptions, draw_splines, draw_stages};
+use fairpath_fit::{Stages, Stroke, TemplateSet, Warning};
+use fairpath_io::picture::{Comb, Layout, PictureOptions, draw_pieces, draw_splines, draw_stages};
 use fairpath_io::{Encoded, SplineFile, SplineFormat, StrokeFile, WriteOptions, YAxis, encode_splines};
 
 use crate::args::OutputFormat;
@@ -45,6 +45,20 @@ pub(crate) fn overview(file: &SplineFile, strokes: &StrokeFile, png: bool, sheet
         options.layout = Layout::Sheet { columns: None };
     }
     let picture = draw_splines(file, Some(strokes), &options);
+    Ok(if png { picture.to_png()? } else { picture.to_svg().as_bytes().to_vec() })
+}
+
+/// A picture of strokes, the French curves laid over them, and the result, as SVG or PNG.
+///
+/// # Errors
+/// When there is no room for the picture's pixels.
+pub(crate) fn with_templates(
+    file: &SplineFile,
+    strokes: &StrokeFile,
+    templates: &TemplateSet,
+    png: bool,
+) -> Result<Vec<u8>> {
+    let picture = draw_pieces(file, Some(strokes), templates, &PictureOptions::default());
     Ok(if png { picture.to_png()? } else { picture.to_svg().as_bytes().to_vec() })
 }
 

@@ -3,7 +3,9 @@
 use std::fmt::Write as _;
 
 use clap::CommandFactory;
-use fairpath_fit::{CubicOptions, CurvatureSpaceOptions, FitOptions, LaplacianOptions, MvcOptions, Preset};
+use fairpath_fit::{
+    CubicOptions, CurvatureSpaceOptions, FitOptions, FrenchCurveOptions, LaplacianOptions, MvcOptions, Preset,
+};
 use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::Value;
@@ -59,6 +61,10 @@ fn parameters_page() -> String {
     text.push_str(&plain_table::<CurvatureSpaceOptions>(
         "curvature-space",
         "Sections and equations are those of McCrae and Singh (2008).",
+    ));
+    text.push_str(&plain_table::<FrenchCurveOptions>(
+        "french-curve",
+        "Sections and equations are those of McCrae and Singh (2011).",
     ));
     let baseline = "This method serves for comparison.";
     text.push_str(&plain_table::<LaplacianOptions>("laplacian", baseline));

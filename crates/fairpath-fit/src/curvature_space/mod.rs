@@ -1,6 +1,6 @@
 //! Sketching piecewise clothoid curves (McCrae and Singh 2008): stroke in, spline out.
 
-mod align;
+pub(crate) mod align;
 mod compose;
 mod estimate;
 mod options;

@@ -3,14 +3,18 @@
 //! A picture is made of shapes only, lettering included, and so looks the same on a machine without fonts. Its page is measured in
 //! px; the drawing is moved to the page in f64 before anything is rounded, so that far-away coordinates lose nothing.
 
+mod board;
 mod drawing;
 mod lettering;
 mod page;
+mod pieces;
 mod sheet;
 mod stages;
 
+pub use board::draw_templates;
 pub use drawing::draw_splines;
 pub use page::Picture;
+pub use pieces::draw_pieces;
 pub use stages::{StagePicture, draw_stages};
 
 /// How strokes are laid out.

@@ -1,7 +1,7 @@
 //! The page: a frame of the drawing on it, marks in page px, and the finished picture as SVG and PNG.
 
 use crate::error::Error;
-use fairpath_curve::{Kind, Point, Segment};
+use fairpath_curve::{Kind, Point, Segment, Spline};
 use kurbo::{Affine, BezPath, PathEl, Rect, Vec2};
 use resvg::{tiny_skia, usvg};
 use std::fmt::{Arguments, Write};
@@ -19,6 +19,8 @@ pub(crate) mod colour {
     pub(crate) const LABEL: &str = "#4a505a";
     pub(crate) const FAINT: &str = "#8b919b";
     pub(crate) const RULE: &str = "#eceef1";
+    pub(crate) const TEMPLATE: &str = "#59636f";
+    pub(crate) const CELLULOID: &str = "#f4e9c8";
     pub(crate) const FAILED: &str = "#b3261e";
 }
 
@@ -29,6 +31,15 @@ pub(crate) const fn colour_of(kind: Kind) -> &'static str {
         Kind::Arc => colour::ARC,
         Kind::Clothoid => colour::CLOTHOID,
     }
+}
+
+/// Colours that tell pieces of French curves apart, used in turn: neighbours differ in hue and in lightness.
+const PIECES: [&str; 10] =
+    ["#d7263d", "#2166c4", "#e08a00", "#1a9850", "#8e44ad", "#0f9bb0", "#c2478f", "#6b7a1f", "#4b4fc4", "#a65628"];
+
+/// The colour of a piece of a French curve.
+pub(crate) const fn colour_of_piece(index: usize) -> &'static str {
+    PIECES[index % PIECES.len()]
 }
 
 /// Accuracy of curves on the page, px.
@@ -81,6 +92,19 @@ impl View {
         path
     }
 
+    /// A whole spline as one path on the page, closed if it is.
+    pub(crate) fn spline(&self, spline: &Spline) -> BezPath {
+        let mut path = BezPath::new();
+        for segment in spline.segments() {
+            let begun = !path.elements().is_empty();
+            path.extend(self.segment(segment).into_iter().skip(usize::from(begun)));
+        }
+        if spline.is_closed() {
+            path.close_path();
+        }
+        path
+    }
+
     /// The direction on the page of a heading in the drawing.
     pub(crate) fn direction(&self, tangent: Vec2) -> Vec2 {
         Vec2::new(tangent.x, tangent.y * self.y_sign)
@@ -105,6 +129,11 @@ impl Page {
         Self { zoom, ..self }
     }
 
+    /// The whole page.
+    pub(crate) fn bounds(&self) -> Rect {
+        Rect::new(0.0, 0.0, self.width, self.height)
+    }
+
     fn put(&mut self, args: Arguments<'_>) {
         self.body.write_fmt(args).expect("writing to a String does not fail");
     }
@@ -112,6 +141,15 @@ impl Page {
     /// Opens a group that has the attributes.
     pub(crate) fn open(&mut self, attributes: Arguments<'_>) {
         self.put(format_args!("<g {attributes}>\n"));
+    }
+
+    /// Opens a group of which only what lies in a rectangle is seen. `id` must differ from those of other such groups of the page.
+    pub(crate) fn open_clipped(&mut self, seen: Rect, id: &str) {
+        let [x, y, w, h] = [seen.x0, seen.y0, seen.width(), seen.height()];
+        self.put(format_args!(
+            "<clipPath id=\"{id}\"><rect x=\"{x:.2}\" y=\"{y:.2}\" width=\"{w:.2}\" height=\"{h:.2}\"/></clipPath>\n\
+             <g clip-path=\"url(#{id})\">\n"
+        ));
     }
 
     /// Closes the last group.

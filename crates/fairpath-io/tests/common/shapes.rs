@@ -31,7 +31,14 @@ pub(crate) fn drop_shape() -> Spline {
 
 /// An entry without a report.
 pub(crate) fn entry(name: &str, spline: Spline) -> SplineEntry {
-    SplineEntry { name: name.into(), method: "by-hand".into(), spline, report: None, warnings: Vec::new() }
+    SplineEntry {
+        name: name.into(),
+        method: "by-hand".into(),
+        spline,
+        report: None,
+        templates: None,
+        warnings: Vec::new(),
+    }
 }
 
 /// A file of both shapes.

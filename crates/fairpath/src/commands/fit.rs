@@ -2,16 +2,18 @@
 
 use std::collections::BTreeMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::Arc;
 
 use anyhow::{Context, Result, bail};
-use fairpath_fit::{Preset, Stages};
+use fairpath_fit::{Preset, Stages, TemplateSet};
 use fairpath_io::{Failure, SplineEntry, SplineFile};
 use rayon::prelude::*;
 
 use super::Ending;
 use super::fit_inputs::{Inputs, Job};
 use super::fit_report;
-use super::method_options::MethodOptions;
+use super::method_options::{Fitted, MethodOptions};
+use super::template_sets;
 use crate::args::{FitArgs, Method, OutputFormat, Stats, preset_name};
 use crate::output::{Destination, Ready};
 use crate::printer::Printer;
@@ -23,7 +25,8 @@ use crate::{interrupt, pictures};
 const FALLBACK: &str = "fell-back-to-polyline";
 
 pub(crate) fn run(args: &FitArgs, printer: &mut Printer) -> Result<Ending> {
-    let base = MethodOptions::asked(args, None)?;
+    let templates = templates(args, printer)?;
+    let base = MethodOptions::asked(&args.into(), &templates, None)?;
     if args.list_parameters {
         printer.result(&fit_report::parameters(&base))?;
         return Ok(Ending::Done);
@@ -34,7 +37,7 @@ pub(crate) fn run(args: &FitArgs, printer: &mut Printer) -> Result<Ending> {
     interrupt::install();
 
     let inputs = Inputs::read(&args.inputs, printer)?;
-    let jobs = inputs.jobs(|pixel_size| MethodOptions::asked(args, pixel_size))?;
+    let jobs = inputs.jobs(|pixel_size| MethodOptions::asked(&args.into(), &templates, pixel_size))?;
     let outcomes = fit_all(&jobs, &inputs, args)?;
     let mut ready = Ready::default();
     let file = collect(&inputs, outcomes, args, &mut ready);
@@ -47,7 +50,12 @@ pub(crate) fn run(args: &FitArgs, printer: &mut Printer) -> Result<Ending> {
     }
     if let Some(to) = &picture {
         let png = to.format == OutputFormat::Png;
-        ready.add(&to.path, pictures::overview(&file, &inputs.file, png, args.sheet)?);
+        let bytes = if args.templates_shown {
+            pictures::with_templates(&file, &inputs.file, &templates, png)?
+        } else {
+            pictures::overview(&file, &inputs.file, png, args.sheet)?
+        };
+        ready.add(&to.path, bytes);
     }
     ready.write()?;
     report(args, &file, printer)?;
@@ -55,6 +63,23 @@ pub(crate) fn run(args: &FitArgs, printer: &mut Printer) -> Result<Ending> {
     let missed = if args.strict { missed_tolerances(&jobs, &file) } else { Vec::new() };
     fit_report::notes(missed.iter().cloned(), printer);
     Ok(if file.failures.is_empty() && missed.is_empty() { Ending::Done } else { Ending::SomeFailed })
+}
+
+/// The French curves that the arguments ask for; of no meaning to other methods.
+fn templates(args: &FitArgs, printer: &mut Printer) -> Result<Arc<TemplateSet>> {
+    if args.method != Method::FrenchCurve {
+        if args.templates.is_some() {
+            bail!("--templates: the method {} uses no French curves; add --method french-curve", args.method.name());
+        }
+        if args.templates_shown {
+            bail!("--templates-shown: the method {} uses no French curves", args.method.name());
+        }
+    }
+    let source = args.templates.clone().unwrap_or_else(|| template_sets::USUAL.into());
+    if source.as_os_str() == "-" && args.inputs.iter().any(|input| input.as_os_str() == "-") {
+        bail!("standard input (-) can be read only once, and both --templates and an input name it");
+    }
+    Ok(Arc::new(template_sets::load(&source, None, printer)?))
 }
 
 fn report(args: &FitArgs, file: &SplineFile, printer: &mut Printer) -> Result<()> {
@@ -127,8 +152,8 @@ fn fit_one(job: &Job<'_>, inputs: &Inputs, args: &FitArgs) -> Outcome {
         (fit, watch.stop())
     }));
     let failed = |failure| Outcome { result: Err(failure), steps: Vec::new() };
-    let (fit, ms) = match fitted {
-        Ok((Ok(fit), ms)) => (fit, ms),
+    let (Fitted { fit, templates }, ms) = match fitted {
+        Ok((Ok(fitted), ms)) => (fitted, ms),
         Ok((Err(error), _)) => return failed(Failure::from_error(name, &error)),
         Err(_) => {
             let text = "the fitter broke down on this stroke, which is a mistake of ours: please report it";
@@ -137,6 +162,7 @@ fn fit_one(job: &Job<'_>, inputs: &Inputs, args: &FitArgs) -> Outcome {
     };
     let steps = stages.map(|stages| pictures::steps(job.stroke, &stages, &fit.spline, inputs.file.y));
     let entry = SplineEntry::from_fit(name, args.method.name(), fit, (!args.no_times).then_some(ms));
+    let entry = SplineEntry { templates, ..entry };
     Outcome { result: Ok(entry), steps: steps.unwrap_or_default() }
 }
 

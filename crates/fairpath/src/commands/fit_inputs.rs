@@ -89,22 +89,12 @@ impl Inputs {
     }
 }
 
-/// Size of one pixel of a 100 dpi screen in the file's unit.
-///
-/// On paper that is a hundredth of an inch. Strokes in metres, kilometres and feet are maps, where it would be absurd: there one
-/// pixel is a metre, unless `--pixel-size` says better.
+/// Size of one pixel of a 100 dpi screen in the file's unit, as its unit says, or where that is px, its dpi.
 fn pixel_size(file: &StrokeFile) -> f64 {
-    let inch = match file.unit {
-        Unit::Px => return file.dpi.map_or(1.0, |dpi| dpi / 100.0),
-        Unit::Pt => 72.0,
-        Unit::Mm => 25.4,
-        Unit::Cm => 2.54,
-        Unit::In => 1.0,
-        Unit::M => return 1.0,
-        Unit::Km => return 0.001,
-        Unit::Ft => return 1.0 / 0.3048,
-    };
-    inch / 100.0
+    match file.unit {
+        Unit::Px => file.dpi.map_or(1.0, |dpi| dpi / 100.0),
+        unit => unit.pixel_size(),
+    }
 }
 
 #[cfg(test)]

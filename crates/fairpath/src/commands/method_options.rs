@@ -1,13 +1,14 @@
 //! The options of whichever method was asked for.
 
-use std::fmt::Debug;
 use std::sync::Arc;
 
 use anyhow::{Result, bail};
 use fairpath_fit::{
-    Closing, CubicOptions, CurvatureSpaceOptions, Fit, FitError, FitOptions, LaplacianOptions, MvcOptions, Observer,
-    Stages, Stroke, fit_cubic, fit_curvature_space, fit_laplacian, fit_mvc, fit_observed,
+    Closing, CubicOptions, CurvatureSpaceOptions, Fit, FitError, FitOptions, FrenchCurveOptions, LaplacianOptions,
+    MvcOptions, Observer, Preset, Stages, Stroke, TemplateSet, fit_cubic, fit_curvature_space, fit_french_curve,
+    fit_laplacian, fit_mvc, fit_observed,
 };
+use fairpath_io::UsedTemplates;
 use schemars::JsonSchema;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -17,20 +18,12 @@ use crate::args::{FitArgs, Method};
 use crate::parameters::{self, Parameter};
 
 /// What the command line must know of the options of a method; a method more is an implementation more.
-trait Options: JsonSchema + Serialize + DeserializeOwned + Default + Clone + Debug + Send + Sync + 'static {
+trait Options: JsonSchema + Serialize + DeserializeOwned + Default + Clone + Send + Sync + 'static {
     /// Size of a pixel in the stroke's unit, and whether strokes are closed: for what has arguments of its own.
     fn stroke(&mut self) -> (&mut f64, &mut Closing);
 
     /// Distance from its stroke that a curve should keep, in the stroke's unit; infinite for a method that keeps none.
     fn largest_deviation(&self) -> f64;
-
-    /// Fits a stroke. Only the method of shortest paths has stages, and only it tells `observer` of its steps.
-    fn fit(
-        &self,
-        stroke: &Stroke,
-        observer: &mut dyn Observer,
-        stages: Option<&mut Stages>,
-    ) -> std::result::Result<Fit, FitError>;
 }
 
 impl Options for FitOptions {
@@ -41,20 +34,11 @@ impl Options for FitOptions {
     fn largest_deviation(&self) -> f64 {
         self.max_error * self.pixel_size
     }
-
-    fn fit(
-        &self,
-        stroke: &Stroke,
-        observer: &mut dyn Observer,
-        stages: Option<&mut Stages>,
-    ) -> std::result::Result<Fit, FitError> {
-        fit_observed(stroke, self, observer, stages)
-    }
 }
 
-/// Implements [`Options`] for methods that have the options of strokes in `stroke` and are called by a function.
-macro_rules! plain_method {
-    ($options:ty, $fit:path, |$this:ident| $largest_deviation:expr) => {
+/// Implements [`Options`] for options that have those of strokes in `stroke`.
+macro_rules! options_with_stroke {
+    ($options:ty, |$this:ident| $largest_deviation:expr) => {
         impl Options for $options {
             fn stroke(&mut self) -> (&mut f64, &mut Closing) {
                 (&mut self.stroke.pixel_size, &mut self.stroke.closed)
@@ -64,83 +48,134 @@ macro_rules! plain_method {
                 let $this = self;
                 $largest_deviation * self.stroke.pixel_size
             }
-
-            fn fit(
-                &self,
-                stroke: &Stroke,
-                _observer: &mut dyn Observer,
-                _stages: Option<&mut Stages>,
-            ) -> std::result::Result<Fit, FitError> {
-                $fit(stroke, self)
-            }
         }
     };
 }
 
-plain_method!(CurvatureSpaceOptions, fit_curvature_space, |o| o.max_error);
-plain_method!(LaplacianOptions, fit_laplacian, |_o| f64::INFINITY);
-plain_method!(CubicOptions, fit_cubic, |o| o.max_error);
-plain_method!(MvcOptions, fit_mvc, |o| o.max_error);
+options_with_stroke!(CurvatureSpaceOptions, |options| options.max_error);
+options_with_stroke!(FrenchCurveOptions, |options| options.max_error);
+options_with_stroke!(CubicOptions, |options| options.max_error);
+options_with_stroke!(MvcOptions, |options| options.max_error);
+options_with_stroke!(LaplacianOptions, |_options| f64::INFINITY);
 
-/// The options of one of the methods, which it is.
-trait Chosen: Debug + Send + Sync {
+/// A fitted stroke, and for a method of French curves which of them it was drawn with.
+pub(crate) struct Fitted {
+    pub(crate) fit: Fit,
+    pub(crate) templates: Option<UsedTemplates>,
+}
+
+impl From<Fit> for Fitted {
+    fn from(fit: Fit) -> Self {
+        Self { fit, templates: None }
+    }
+}
+
+type Outcome = std::result::Result<Fitted, FitError>;
+
+/// The options of one of the methods with the method itself.
+struct Chosen<T, F> {
+    options: T,
+    fit: F,
+}
+
+/// A method that can be run, whatever its options are.
+trait Runnable: Send + Sync {
     fn largest_deviation(&self) -> f64;
-    fn fit(
-        &self,
-        stroke: &Stroke,
-        observer: &mut dyn Observer,
-        stages: Option<&mut Stages>,
-    ) -> std::result::Result<Fit, FitError>;
+    fn fit(&self, stroke: &Stroke, observer: &mut dyn Observer, stages: Option<&mut Stages>) -> Outcome;
     fn listed(&self) -> (Vec<Parameter>, Value);
 }
 
-impl<T: Options> Chosen for T {
+impl<T: Options, F> Runnable for Chosen<T, F>
+where
+    F: Fn(&T, &Stroke, &mut dyn Observer, Option<&mut Stages>) -> Outcome + Send + Sync,
+{
     fn largest_deviation(&self) -> f64 {
-        Options::largest_deviation(self)
+        self.options.largest_deviation()
     }
 
-    fn fit(
-        &self,
-        stroke: &Stroke,
-        observer: &mut dyn Observer,
-        stages: Option<&mut Stages>,
-    ) -> std::result::Result<Fit, FitError> {
-        Options::fit(self, stroke, observer, stages)
+    fn fit(&self, stroke: &Stroke, observer: &mut dyn Observer, stages: Option<&mut Stages>) -> Outcome {
+        (self.fit)(&self.options, stroke, observer, stages)
     }
 
     fn listed(&self) -> (Vec<Parameter>, Value) {
-        (parameters::all::<T>(), serde_json::to_value(self).unwrap_or(Value::Null))
+        (parameters::all::<T>(), serde_json::to_value(&self.options).unwrap_or(Value::Null))
+    }
+}
+
+/// What can be asked of a method.
+#[derive(Clone, Debug)]
+pub(crate) struct Asked<'a> {
+    pub(crate) method: Method,
+    /// Of meaning to shortest paths only.
+    pub(crate) preset: Preset,
+    /// Parameters as `key=value`.
+    pub(crate) set: &'a [String],
+    pub(crate) closed: Option<Closing>,
+    /// Size of a pixel in the strokes' unit.
+    pub(crate) pixel_size: Option<f64>,
+}
+
+impl<'a> From<&'a FitArgs> for Asked<'a> {
+    fn from(args: &'a FitArgs) -> Self {
+        let FitArgs { method, preset, ref set, closed, pixel_size, .. } = *args;
+        Self { method, preset, set, closed, pixel_size }
     }
 }
 
 /// A method with its options.
-#[derive(Clone, Debug)]
-pub(crate) struct MethodOptions(Arc<dyn Chosen>);
+#[derive(Clone)]
+pub(crate) struct MethodOptions(Arc<dyn Runnable>);
 
 impl MethodOptions {
-    /// What the arguments ask for, for strokes whose file says so of its pixels.
+    /// What the arguments ask for, for strokes whose file says so of its pixels. `templates` are for the method that draws with them.
     ///
     /// # Errors
     /// When a parameter is unknown or out of its range.
-    pub(crate) fn asked(args: &FitArgs, pixel_size_of_file: Option<f64>) -> Result<Self> {
-        if let Some(size) = args.pixel_size
+    pub(crate) fn asked(
+        asked: &Asked<'_>,
+        templates: &Arc<TemplateSet>,
+        pixel_size_of_file: Option<f64>,
+    ) -> Result<Self> {
+        if let Some(size) = asked.pixel_size
             && !(size.is_finite() && size > 0.0)
         {
             bail!("--pixel-size {size}: expected a number above 0, the size of a screen's pixel in the strokes' unit");
         }
-        let pixel_size = args.pixel_size.or(pixel_size_of_file);
-        let options = match args.method {
-            Method::ShortestPath => set(FitOptions::preset(args.preset), args, pixel_size)?,
-            Method::CurvatureSpace => set(CurvatureSpaceOptions::default(), args, pixel_size)?,
-            Method::Laplacian => set(LaplacianOptions::default(), args, pixel_size)?,
-            Method::Cubic => set(CubicOptions::default(), args, pixel_size)?,
-            Method::Mvc => set(MvcOptions::default(), args, pixel_size)?,
+        let pixel_size = asked.pixel_size.or(pixel_size_of_file);
+        let method: Arc<dyn Runnable> = match asked.method {
+            Method::ShortestPath => Arc::new(Chosen {
+                options: set(FitOptions::preset(asked.preset), asked, pixel_size)?,
+                fit: |options: &FitOptions,
+                      stroke: &Stroke,
+                      observer: &mut dyn Observer,
+                      stages: Option<&mut Stages>| {
+                    fit_observed(stroke, options, observer, stages).map(Fitted::from)
+                },
+            }),
+            Method::FrenchCurve => {
+                let templates = Arc::clone(templates);
+                Arc::new(Chosen {
+                    options: set(FrenchCurveOptions::default(), asked, pixel_size)?,
+                    fit: move |options: &FrenchCurveOptions,
+                               stroke: &Stroke,
+                               _: &mut dyn Observer,
+                               _: Option<&mut Stages>| {
+                        let found = fit_french_curve(stroke, &templates, options)?;
+                        let used = UsedTemplates::new(&templates, &found.pieces);
+                        Ok(Fitted { fit: found.fit, templates: Some(used) })
+                    },
+                })
+            }
+            Method::CurvatureSpace => plain(fit_curvature_space, asked, pixel_size)?,
+            Method::Laplacian => plain(fit_laplacian, asked, pixel_size)?,
+            Method::Cubic => plain(fit_cubic, asked, pixel_size)?,
+            Method::Mvc => plain(fit_mvc, asked, pixel_size)?,
         };
         // Any stroke shows an option that is out of range; a short one is cheap.
         let probe = Stroke::new("probe", vec![(0.0, 0.0).into(), (1.0, 0.0).into()]);
-        match options.fit(&probe, &mut (), None) {
+        match method.fit(&probe, &mut (), None) {
             Err(error @ FitError::BadOption { .. }) => bail!("{error}"),
-            _ => Ok(options),
+            _ => Ok(Self(method)),
         }
     }
 
@@ -153,7 +188,7 @@ impl MethodOptions {
         stroke: &Stroke,
         observer: &mut dyn Observer,
         stages: Option<&mut Stages>,
-    ) -> std::result::Result<Fit, FitError> {
+    ) -> std::result::Result<Fitted, FitError> {
         self.0.fit(stroke, observer, stages)
     }
 
@@ -168,10 +203,22 @@ impl MethodOptions {
     }
 }
 
+/// A method that is nothing but a function of stroke and options.
+fn plain<T: Options>(
+    fit: fn(&Stroke, &T) -> std::result::Result<Fit, FitError>,
+    asked: &Asked<'_>,
+    pixel_size: Option<f64>,
+) -> Result<Arc<dyn Runnable>> {
+    let run = move |options: &T, stroke: &Stroke, _: &mut dyn Observer, _: Option<&mut Stages>| {
+        fit(stroke, options).map(Fitted::from)
+    };
+    Ok(Arc::new(Chosen { options: set(T::default(), asked, pixel_size)?, fit: run }))
+}
+
 /// Options with what the arguments change about them.
-fn set<T: Options>(mut options: T, args: &FitArgs, pixel_size: Option<f64>) -> Result<MethodOptions> {
+fn set<T: Options>(mut options: T, asked: &Asked<'_>, pixel_size: Option<f64>) -> Result<T> {
     let (size, closed) = options.stroke();
     *size = pixel_size.unwrap_or(*size);
-    *closed = args.closed.unwrap_or(*closed);
-    Ok(MethodOptions(Arc::new(parameters::apply(&options, &args.set)?)))
+    *closed = asked.closed.unwrap_or(*closed);
+    parameters::apply(&options, asked.set)
 }

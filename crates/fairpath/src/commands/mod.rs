@@ -5,6 +5,8 @@ pub(crate) mod fit;
 mod fit_inputs;
 mod fit_report;
 mod method_options;
+mod template_sets;
+pub(crate) mod templates;
 
 /// How a command ended, when its arguments and inputs were usable.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
