@@ -10,6 +10,7 @@
 //! | the sets of French curves that come along | [`shipped_templates`] |
 //! | convert | the two above, one after the other |
 //! | draw splines, a contact sheet, the steps of a fit, French curves and their pieces | [`picture`] |
+//! | compare methods on the same strokes, as a page of HTML | [`Comparison`] |
 //! | write any file whole or not at all | [`write_whole`] |
 //! | bound what a hostile file may cost | [`Limits`] in [`ReadOptions`] |
 //! | JSON schemas of the formats | [`strokes_schema`], [`spline_schema`], [`templates_schema`] |
@@ -36,6 +37,7 @@
 //! ```
 
 mod atomic;
+mod comparison;
 mod drawable;
 mod drawn_spline;
 mod error;
@@ -65,6 +67,7 @@ mod unit;
 mod xml;
 
 pub use atomic::write_whole;
+pub use comparison::{ComparedMethod, Comparison, MethodSummary};
 pub use error::Error;
 pub use limits::{Limits, ReadOptions};
 pub use schema::{spline_schema, strokes_schema, templates_schema};

@@ -24,6 +24,8 @@ Exit codes: 0 all done; 1 some stroke failed, or --strict and a tolerance was mi
 pub enum Command {
     /// Fit a fair curve to each stroke
     Fit(FitArgs),
+    /// Fit by several methods and show the results side by side
+    Compare(CompareArgs),
     /// Write a spline file in another format
     Convert(ConvertArgs),
     /// List, author or draw sets of French curves
@@ -114,6 +116,49 @@ pub struct FitArgs {
     pub no_times: bool,
 
     /// Print the figures of each fit to standard output instead of the table
+    #[arg(long, value_name = "FORM")]
+    pub stats: Option<Stats>,
+}
+
+/// Arguments of `fairpath compare`.
+///
+/// Each method has its usual parameters. Without `-o` a table of one line per method goes to standard output.
+#[derive(Args, Debug)]
+#[command(after_help = EXIT_CODES)]
+pub struct CompareArgs {
+    /// Files of strokes, as for `fairpath fit`; `-` is standard input
+    #[arg(value_name = "INPUT", required = true)]
+    pub inputs: Vec<PathBuf>,
+
+    /// Where the comparison goes: html, one page that shows and tells everything; svg or png, a table of pictures
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Option<PathBuf>,
+
+    /// A method to compare; may be given many times. By default all
+    #[arg(long = "method", value_name = "METHOD")]
+    pub methods: Vec<Method>,
+
+    /// Compare on this stroke; may be given many times. By default on all
+    #[arg(long = "stroke", value_name = "NAME")]
+    pub strokes: Vec<String>,
+
+    /// French curves for the method french-curve: burmester, rectilinear, automotive, or a file; burmester by default
+    #[arg(long, value_name = "SET")]
+    pub templates: Option<PathBuf>,
+
+    /// Whether the strokes are closed curves
+    #[arg(long, value_name = "WHETHER", value_parser = closing())]
+    pub closed: Option<Closing>,
+
+    /// Size of one pixel of a 100 dpi screen, in the strokes' unit. By default it comes from the file's unit and dpi
+    #[arg(long, value_name = "S")]
+    pub pixel_size: Option<f64>,
+
+    /// Number of threads; 0 is one for each processor. More than one make the times longer
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u16).range(0..=1024))]
+    pub threads: u16,
+
+    /// Print the figures of each method to standard output instead of the table
     #[arg(long, value_name = "FORM")]
     pub stats: Option<Stats>,
 }

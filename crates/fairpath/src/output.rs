@@ -50,7 +50,7 @@ fn from_extension(path: &Path) -> Result<OutputFormat> {
 }
 
 /// Finds out before the work, not after it, that the result would have no place.
-fn check_place(path: &Path) -> Result<()> {
+pub(crate) fn check_place(path: &Path) -> Result<()> {
     if path.as_os_str() == "-" {
         return Ok(());
     }

@@ -137,6 +137,11 @@ impl CombScale {
         Self { scale: scale.filter(|_| spacing > 0.0), longest, spacing }
     }
 
+    /// The one of two scales that has longer teeth.
+    pub(crate) fn higher(self, other: Self) -> Self {
+        if other.scale.unwrap_or(0.0) > self.scale.unwrap_or(0.0) { other } else { self }
+    }
+
     /// Where a tooth ends in the picture.
     fn tip(&self, tooth: &Tooth) -> Point {
         let whole = tooth.tip - tooth.base;

@@ -12,9 +12,12 @@ mod sheet;
 mod stages;
 
 pub use board::draw_templates;
+pub(crate) use drawing::bounds;
 pub use drawing::draw_splines;
 pub use page::Picture;
+pub(crate) use page::{View, path_data};
 pub use pieces::draw_pieces;
+pub use sheet::draw_comparison;
 pub use stages::{StagePicture, draw_stages};
 
 /// How strokes are laid out.

@@ -111,6 +111,24 @@ impl View {
     }
 }
 
+/// A path as SVG writes it, to a hundredth of a px.
+pub(crate) fn path_data(path: &BezPath) -> String {
+    let mut out = String::new();
+    for el in path.elements() {
+        let written = match el {
+            PathEl::MoveTo(p) => write!(out, "M{:.2} {:.2}", p.x, p.y),
+            PathEl::LineTo(p) => write!(out, "L{:.2} {:.2}", p.x, p.y),
+            PathEl::QuadTo(a, p) => write!(out, "Q{:.2} {:.2} {:.2} {:.2}", a.x, a.y, p.x, p.y),
+            PathEl::CurveTo(a, b, p) => {
+                write!(out, "C{:.2} {:.2} {:.2} {:.2} {:.2} {:.2}", a.x, a.y, b.x, b.y, p.x, p.y)
+            }
+            PathEl::ClosePath => write!(out, "Z"),
+        };
+        written.expect("writing to a String does not fail");
+    }
+    out
+}
+
 /// A page being drawn.
 pub(crate) struct Page {
     body: String,
@@ -159,19 +177,7 @@ impl Page {
 
     /// A curve; `attributes` may add to those of the group around.
     pub(crate) fn path(&mut self, path: &BezPath, attributes: Arguments<'_>) {
-        self.put(format_args!("<path d=\""));
-        for el in path.elements() {
-            match el {
-                PathEl::MoveTo(p) => self.put(format_args!("M{:.2} {:.2}", p.x, p.y)),
-                PathEl::LineTo(p) => self.put(format_args!("L{:.2} {:.2}", p.x, p.y)),
-                PathEl::QuadTo(a, p) => self.put(format_args!("Q{:.2} {:.2} {:.2} {:.2}", a.x, a.y, p.x, p.y)),
-                PathEl::CurveTo(a, b, p) => {
-                    self.put(format_args!("C{:.2} {:.2} {:.2} {:.2} {:.2} {:.2}", a.x, a.y, b.x, b.y, p.x, p.y));
-                }
-                PathEl::ClosePath => self.put(format_args!("Z")),
-            }
-        }
-        self.put(format_args!("\" {attributes}/>\n"));
+        self.put(format_args!("<path d=\"{}\" {attributes}/>\n", path_data(path)));
     }
 
     /// A polyline through points of the page.

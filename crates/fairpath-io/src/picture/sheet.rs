@@ -8,7 +8,7 @@ use crate::drawable::Drawable;
 use crate::spline_file::{Failure, SplineEntry, SplineFile};
 use crate::stroke_file::StrokeFile;
 use crate::unit::YAxis;
-use fairpath_curve::{Kind, Point};
+use fairpath_curve::{Kind, Point, Spline};
 use fairpath_fit::Stroke;
 use kurbo::Rect;
 use std::collections::HashMap;
@@ -39,6 +39,13 @@ struct Cell<'a> {
     stroke: Option<&'a Stroke>,
     entry: Option<&'a SplineEntry>,
     failure: Option<&'a Failure>,
+}
+
+impl<'a> Cell<'a> {
+    /// The spline, if it can be drawn.
+    fn spline(&self) -> Option<&'a Spline> {
+        self.entry.map(|e| &e.spline).filter(|s| Drawable::default().admits(s))
+    }
 }
 
 /// The cells: strokes in their order, then whatever belongs to none of them.
@@ -77,17 +84,73 @@ pub(crate) fn draw(
     let mut page = Page::new(width, height).zoomed(zoom);
     for (i, cell) in cells.iter().enumerate() {
         let corner = Point::new(MARGIN + (i % columns) as f64 * CELL.0, MARGIN + (i / columns) as f64 * CELL.1);
-        draw_cell(&mut page, cell, corner, options, file.y == YAxis::Up);
+        let frame = Frame::of(cell, options);
+        draw_cell(&mut page, cell, corner, options, file.y == YAxis::Up, &frame);
     }
     page.finish()
 }
 
-fn draw_cell(page: &mut Page, cell: &Cell<'_>, corner: Point, options: &PictureOptions, y_up: bool) {
-    let spline = cell.entry.map(|e| &e.spline).filter(|s| Drawable::default().admits(s));
+/// A table of pictures: a row for each stroke, a column for each of `methods`, which are a name and the splines that it made of the strokes.
+///
+/// The cells of a row have one scale, of the combs too, so that they can be compared. At most 2000 cells are drawn.
+#[must_use]
+pub fn draw_comparison(methods: &[(&str, &SplineFile)], strokes: &StrokeFile, options: &PictureOptions) -> Picture {
+    let columns: Vec<Vec<Cell<'_>>> = methods.iter().map(|(_, file)| cells(file, Some(strokes))).collect();
+    let rows = strokes.strokes.len().min(MAX_CELLS / methods.len().max(1));
+    let width = methods.len().max(1) as f64 * CELL.0 + 2.0 * MARGIN;
+    let height = rows as f64 * CELL.1 + HEAD + 2.0 * MARGIN;
+    let zoom = (sane_size(options.size_px) / width.max(height)).clamp(1.0, MAX_ZOOM);
+    let mut page = Page::new(width, height).zoomed(zoom);
+    for (i, (name, _)) in methods.iter().enumerate() {
+        let at = Point::new(MARGIN + i as f64 * CELL.0 + PADDING, MARGIN + LETTERS + 4.0);
+        write(&mut page, name, at, LETTERS + 2.0, colour::STROKE);
+    }
+    for row in 0..rows {
+        let beside: Vec<&Cell<'_>> = columns.iter().map(|cells| &cells[row]).collect();
+        let Some(frame) = beside.iter().map(|cell| Frame::of(cell, options)).reduce(Frame::common) else { continue };
+        for (i, cell) in beside.into_iter().enumerate() {
+            let corner = Point::new(MARGIN + i as f64 * CELL.0, MARGIN + HEAD + row as f64 * CELL.1);
+            draw_cell(&mut page, cell, corner, options, strokes.y == YAxis::Up, &frame);
+        }
+    }
+    page.finish()
+}
+
+/// Height of the names of methods above their columns.
+const HEAD: f64 = 26.0;
+
+/// What of the drawing a cell shows, and the scale of its comb.
+#[derive(Clone, Copy)]
+struct Frame {
+    around: Rect,
+    comb: CombScale,
+}
+
+impl Frame {
+    fn of(cell: &Cell<'_>, options: &PictureOptions) -> Self {
+        let spline = cell.spline();
+        let ghost = cell.stroke.filter(|_| options.ghost || spline.is_none());
+        let around = bounds(spline.into_iter(), ghost.into_iter());
+        let comb = CombScale::of(options.comb, spline.into_iter(), around, TEETH);
+        Self { around: comb.widened(around, spline.into_iter()), comb }
+    }
+
+    /// A frame for what both show. Combs have the larger of both scales: that of the curve which bends less sharply.
+    fn common(self, other: Self) -> Self {
+        Self { around: self.around.union(other.around), comb: self.comb.higher(other.comb) }
+    }
+}
+
+fn draw_cell(
+    page: &mut Page,
+    cell: &Cell<'_>,
+    corner: Point,
+    options: &PictureOptions,
+    y_up: bool,
+    &Frame { around, comb }: &Frame,
+) {
+    let spline = cell.spline();
     let ghost = cell.stroke.filter(|_| options.ghost || spline.is_none());
-    let around = bounds(spline.into_iter(), ghost.into_iter());
-    let comb = CombScale::of(options.comb, spline.into_iter(), around, TEETH);
-    let around = comb.widened(around, spline.into_iter());
     let into = Rect::new(PADDING, PADDING, CELL.0 - PADDING, DRAWING) + corner.to_vec2();
     let view = View::fit(around, into, y_up);
     let pen = Pen { unit: 0.62 };

@@ -1,24 +1,21 @@
 //! `fairpath fit`: read all strokes, fit them in parallel, write everything or nothing.
 
 use std::collections::BTreeMap;
-use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 
-use anyhow::{Context, Result, bail};
+use anyhow::{Result, bail};
 use fairpath_fit::{Preset, Stages, TemplateSet};
 use fairpath_io::{Failure, SplineEntry, SplineFile};
-use rayon::prelude::*;
 
 use super::Ending;
 use super::fit_inputs::{Inputs, Job};
 use super::fit_report;
-use super::method_options::{Fitted, MethodOptions};
+use super::fitting::{fitted, in_parallel};
+use super::method_options::MethodOptions;
 use super::template_sets;
 use crate::args::{FitArgs, Method, OutputFormat, Stats, preset_name};
 use crate::output::{Destination, Ready};
 use crate::printer::Printer;
-use crate::progress::Progress;
-use crate::stopwatch::Stopwatch;
 use crate::{interrupt, pictures};
 
 /// The fitter's word for a stroke that it gave back as a polyline.
@@ -128,42 +125,15 @@ struct Outcome {
 }
 
 fn fit_all(jobs: &[Job<'_>], inputs: &Inputs, args: &FitArgs) -> Result<Vec<Outcome>> {
-    let pool = rayon::ThreadPoolBuilder::new()
-        .num_threads(args.threads.into())
-        .build()
-        .with_context(|| format!("cannot start {} threads; ask for fewer", args.threads))?;
-    let progress = Progress::start(jobs.len());
-    let one = |job: &Job<'_>| {
-        let outcome = fit_one(job, inputs, args);
-        progress.one_done();
-        outcome
-    };
-    // `collect` keeps the order of the input, whatever the order of finishing.
-    Ok(pool.install(|| jobs.par_iter().map(one).collect()))
-}
-
-fn fit_one(job: &Job<'_>, inputs: &Inputs, args: &FitArgs) -> Outcome {
-    let name = job.stroke.name.as_str();
-    let mut stages = args.stages.is_some().then(Stages::default);
-    // The fitter does not panic on data; should it all the same, the other strokes are still worth having.
-    let fitted = catch_unwind(AssertUnwindSafe(|| {
-        let mut watch = Stopwatch::start();
-        let fit = job.options.fit(job.stroke, &mut watch, stages.as_mut());
-        (fit, watch.stop())
-    }));
-    let failed = |failure| Outcome { result: Err(failure), steps: Vec::new() };
-    let (Fitted { fit, templates }, ms) = match fitted {
-        Ok((Ok(fitted), ms)) => (fitted, ms),
-        Ok((Err(error), _)) => return failed(Failure::from_error(name, &error)),
-        Err(_) => {
-            let text = "the fitter broke down on this stroke, which is a mistake of ours: please report it";
-            return failed(Failure { name: name.into(), code: "internal".into(), text: text.into() });
-        }
-    };
-    let steps = stages.map(|stages| pictures::steps(job.stroke, &stages, &fit.spline, inputs.file.y));
-    let entry = SplineEntry::from_fit(name, args.method.name(), fit, (!args.no_times).then_some(ms));
-    let entry = SplineEntry { templates, ..entry };
-    Outcome { result: Ok(entry), steps: steps.unwrap_or_default() }
+    in_parallel(jobs, args.threads, |job| {
+        let mut stages = args.stages.is_some().then(Stages::default);
+        let result = fitted(job, args.method, !args.no_times, stages.as_mut());
+        let steps = match (&result, &stages) {
+            (Ok(entry), Some(stages)) => pictures::steps(job.stroke, stages, &entry.spline, inputs.file.y),
+            _ => Vec::new(),
+        };
+        Outcome { result, steps }
+    })
 }
 
 /// All outcomes as one file; the pictures of the steps are made ready to be written.

@@ -69,6 +69,26 @@ impl Inputs {
         Ok(Self { file, pixel_sizes })
     }
 
+    /// Leaves out all strokes but those of these names, if there are any names.
+    ///
+    /// # Errors
+    /// When there is no stroke of one of the names.
+    pub(crate) fn keep_only(&mut self, names: &[String]) -> Result<()> {
+        if names.is_empty() {
+            return Ok(());
+        }
+        if let Some(unknown) = names.iter().find(|name| !self.file.strokes.iter().any(|s| s.name == **name)) {
+            let known: Vec<&str> = self.file.strokes.iter().take(12).map(|s| s.name.as_str()).collect();
+            bail!("--stroke {unknown}: there is no stroke of that name; the first are {}", known.join(", "));
+        }
+        let kept: Vec<bool> = self.file.strokes.iter().map(|s| names.contains(&s.name)).collect();
+        let mut of_stroke = kept.iter();
+        self.file.strokes.retain(|_| *of_stroke.next().unwrap_or(&false));
+        let mut of_size = kept.iter();
+        self.pixel_sizes.retain(|_| *of_size.next().unwrap_or(&false));
+        Ok(())
+    }
+
     /// The strokes, each with what `options` says for its pixel size.
     ///
     /// # Errors

@@ -1,9 +1,11 @@
 //! A module for each verb.
 
+pub(crate) mod compare;
 pub(crate) mod convert;
 pub(crate) mod fit;
 mod fit_inputs;
 mod fit_report;
+mod fitting;
 mod method_options;
 mod template_sets;
 pub(crate) mod templates;
