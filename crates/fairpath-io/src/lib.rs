@@ -1,4 +1,4 @@
-//! Readers and writers of strokes and clothoid splines, and pictures of both.
+//! Readers and writers of strokes and clothoid splines, writers of surfaces, and pictures of all.
 //!
 //! | task | use |
 //! | --- | --- |
@@ -6,7 +6,8 @@
 //! | write strokes (JSON, SVG, text) | [`write_strokes`], [`encode_strokes`] |
 //! | read splines (JSON, our SVG, CSV) | [`read_splines`], [`read_splines_from`] |
 //! | write splines (JSON, SVG, CSV, DXF, PNG) | [`write_splines`], [`encode_splines`] |
-//! | convert | the two above, one after the other |
+//! | write surfaces (glTF, OBJ, PNG) | [`write_surfaces`], [`encode_surfaces`] |
+//! | convert | read splines and write them |
 //! | draw splines, a contact sheet, the steps of a fit | [`picture`] |
 //! | write any file whole or not at all | [`write_whole`] |
 //! | bound what a hostile file may cost | [`Limits`] in [`ReadOptions`] |
@@ -39,6 +40,8 @@ mod error;
 mod geodetic;
 mod input;
 mod limits;
+mod mesh_gltf;
+mod mesh_obj;
 pub mod picture;
 mod schema;
 mod spline_csv;
@@ -55,6 +58,7 @@ mod strokes_inkml;
 mod strokes_json;
 mod strokes_svg;
 mod strokes_text;
+mod surfaces;
 mod svg_geometry;
 mod unit;
 mod xml;
@@ -70,4 +74,5 @@ pub use splines::{
 };
 pub use stroke_file::StrokeFile;
 pub use strokes::{StrokeFormat, encode_strokes, read_strokes, read_strokes_from, write_strokes};
+pub use surfaces::{SurfaceEntry, SurfaceFile, SurfaceFormat, encode_surfaces, write_surfaces};
 pub use unit::{Unit, YAxis};

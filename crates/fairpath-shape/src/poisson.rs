@@ -117,7 +117,7 @@ pub(crate) fn gradients(domain: &Domain, solved: &Solved) -> Vec<Vec2> {
 }
 
 /// The unit vector to the left of a heading.
-fn inward(heading: f64) -> Vec2 {
+pub(crate) fn inward(heading: f64) -> Vec2 {
     let along = fairpath_curve::trig::unit(heading);
     Vec2::new(-along.y, along.x)
 }

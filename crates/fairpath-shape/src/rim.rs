@@ -9,6 +9,8 @@ use fairpath_curve::{Point, Pose};
 
 /// Most turning along one edge, radians: 24 edges to a full turn at least.
 const MOST_TURN: f64 = 0.26;
+/// The same where the curve bends inwards: there the rows of triangles along the rim can only be as fine as the edges are straight.
+const MOST_TURN_INWARDS: f64 = 0.13;
 /// Edge length per radius of the largest circle that fits inside at the edge: some eight edges around, some four across.
 const PER_RADIUS: f64 = 0.5;
 /// Edges that are short for narrowness alone are at least this part of the wanted length: a corner is narrow without end.
@@ -52,8 +54,9 @@ pub(crate) fn at(outline: &Outline, stations: &[f64]) -> Vec<RimPoint> {
 /// Edge length that a curvature allows.
 fn along(curvature: f64, edge: f64, accuracy: f64) -> f64 {
     let kappa = curvature.abs();
+    let turn = if curvature < 0.0 { MOST_TURN_INWARDS } else { MOST_TURN };
     // A chord of length l is kappa l² / 8 off its arc.
-    edge.min(MOST_TURN / kappa).min((8.0 * accuracy / kappa).sqrt())
+    edge.min(turn / kappa).min((8.0 * accuracy / kappa).sqrt())
 }
 
 /// Stations at least as dense as the curvature asks for.
@@ -61,8 +64,8 @@ fn first_stations(outline: &Outline, edge: f64, accuracy: f64) -> Vec<f64> {
     let mut stations = Vec::new();
     for ((kappa, turn), ends) in outline.bends().zip(outline.knots.windows(2)) {
         let length = ends[1] - ends[0];
-        let finest = (length / (8.0 * accuracy / kappa).sqrt()).min(4.0 * turn / MOST_TURN + 1.0);
-        let count = libm::ceil((length / edge).max(turn / MOST_TURN).max(finest)).max(1.0);
+        let finest = (length / (8.0 * accuracy / kappa).sqrt()).min(4.0 * turn / MOST_TURN_INWARDS + 1.0);
+        let count = libm::ceil((length / edge).max(turn / MOST_TURN_INWARDS).max(finest)).max(1.0);
         stations.extend((0..count as usize).map(|i| ends[0] + length * (i as f64 / count)));
     }
     stations

@@ -2,7 +2,7 @@
 
 use crate::outline::Outline;
 use crate::triangulation::Domain;
-use fairpath_curve::{Point, Vec2};
+use fairpath_curve::{Point, Vec2, trig};
 use std::f64::consts::TAU;
 
 /// Rounds of telling neighbours what is near; two or three find everything on most shapes.
@@ -11,11 +11,16 @@ const MOST_ROUNDS: usize = 20;
 /// Chords beyond the nearest so far that are tried before the search along the rim ends.
 const LOOK_PAST: usize = 2;
 
+/// How far behind a chord a vertex must lie, in bulges of the curve.
+const CLEARANCE: f64 = 2.0;
+
 /// The rim as a polygon that knows how far the curve bulges out from each of its chords.
 pub(crate) struct Shore {
     points: Vec<Point>,
     /// Distance of the curve from the middle of each chord, positive outwards.
     bulges: Vec<f64>,
+    /// How much the polygon bends inwards at either end of each chord, radians per length; 0 where it bends outwards.
+    inward: Vec<f64>,
 }
 
 /// The nearest place on the rim.
@@ -40,7 +45,16 @@ impl Shore {
             let chord = to.pose.point - from.pose.point;
             -chord.cross(middle - from.pose.point) / chord.hypot()
         };
-        Self { bulges: (0..count).map(bulge).collect(), points }
+        let chord = |i: usize| points[(i + 1) % count] - points[i % count];
+        let bends: Vec<f64> = (0..count)
+            .map(|i| {
+                let (before, after) = (chord(i + count - 1), chord(i));
+                let turn = trig::angle_of(Vec2::new(before.dot(after), before.cross(after)));
+                (-2.0 * turn / (before.hypot() + after.hypot())).max(0.0)
+            })
+            .collect();
+        let inward = (0..count).map(|i| bends[i].max(bends[(i + 1) % count])).collect();
+        Self { bulges: (0..count).map(bulge).collect(), inward, points }
     }
 
     fn on_chord(&self, p: Point, chord: usize) -> Foot {
@@ -115,6 +129,28 @@ impl Shore {
     /// Distance from the curve itself: to the chord, and from there along a parabola with the curve's bulge.
     pub(crate) fn from_curve(&self, foot: &Foot) -> f64 {
         foot.distance + 4.0 * foot.along * (1.0 - foot.along) * self.bulges[foot.chord]
+    }
+
+    /// The distance from the curve that a vertex at distance `t` should be moved to, instead of to `distance`, so that triangles do not turn
+    /// over. It grows with both.
+    ///
+    /// Where the curve bulges out of its chords, a vertex must lie behind them. Where it bends inwards, rows of vertices along the rim must lie
+    /// further apart than straight edges cut across the bend, so that they cannot be squeezed to less than about t² times the curvature.
+    pub(crate) fn cleared(&self, foot: &Foot, t: f64, distance: f64) -> f64 {
+        let count = self.points.len();
+        let near = [foot.chord + count - 1, foot.chord, foot.chord + 1].map(|chord| chord % count);
+        let out = CLEARANCE * near.map(|chord| self.bulges[chord]).into_iter().fold(0.0, f64::max);
+        let bend = near.map(|chord| self.inward[chord]).into_iter().fold(0.0, f64::max);
+        let behind = (distance * distance + out * out).sqrt();
+        behind.max(t * (bend * t / (1.0 + bend * t)))
+    }
+
+    /// The direction from a point to its foot; straight outwards where it is on the rim itself.
+    pub(crate) fn direction(&self, foot: &Foot, p: Point) -> Vec2 {
+        let (a, b) = (self.points[foot.chord], self.points[(foot.chord + 1) % self.points.len()]);
+        let way = a.lerp(b, foot.along) - p;
+        let length = way.hypot();
+        if foot.distance > 0.0 && length > 0.0 { way / length } else { Vec2::new((b - a).y, (a - b).x) / (b - a).hypot() }
     }
 
     /// How much further a function that vanishes on the curve has risen than one that vanishes on the polygon, as a distance.

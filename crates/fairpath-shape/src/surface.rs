@@ -8,17 +8,26 @@
 use crate::mesh::Mesh;
 use crate::options::InflateOptions;
 use crate::outline::Outline;
-use crate::poisson::{Solved, gradients};
+use crate::poisson::{Solved, gradients, inward};
 use crate::shore::{Foot, Shore};
 use crate::triangulation::{Domain, OUTSIDE, signed_area};
 use fairpath_curve::{Point, Vec2, trig};
 
 /// What a triangle in the plane must keep of its area when its vertices move, as a part of what it would on a disc.
 const LEAST_AREA: f64 = 0.1;
+/// Vertices nearer to the rim than the first number of edge lengths go straight to it, those further than the second along the gradient.
+const STRAIGHT: [f64; 2] = [1.5, 3.0];
+/// Cosines of the angle between both at which they go along the gradient all the same, and straight: between them lie ridges, from which
+/// either side of the rim is as near.
+const AGREEING: [f64; 2] = [0.9, 0.98];
+/// Largest difference between the parts of their ways that neighbours go, where some are held back.
+const STEP_OF_PARTS: f64 = 0.15;
 /// What is left of the way that a vertex moves when it turns a triangle over, each time.
-const HELD_BACK: f64 = 0.7;
-/// How often vertices are held back before all stay where they were.
-const MOST_ROUNDS: usize = 60;
+const HELD_BACK: f64 = 0.8;
+/// How often vertices are held back before all stay where they were; from half way on, those in question stay at once.
+const MOST_ROUNDS: usize = 80;
+/// How often surfaces are made until none of their triangles is folded over.
+const MOST_SURFACES: usize = 12;
 /// Steps from triangle to triangle on the way to a point; the longest way leads through about as many as lie across.
 const MOST_STEPS: usize = 10_000;
 /// The part of the height near the rim that comes from the distance to the curve, so that it is true in proportion however small: all up
@@ -29,13 +38,34 @@ const NEAR: [f64; 2] = [1.0, 3.0];
 pub(crate) fn raise(outline: &Outline, domain: &Domain, solved: &Solved, options: &InflateOptions) -> Mesh {
     let shore = Shore::new(domain, outline);
     let field = Field::new(domain, solved, &shore);
-    let places = field.spread();
-    let rim = domain.rim.len();
-    let mut front = vec![(0.0, Vec2::ZERO); rim];
-    for i in rim..places.len() {
-        front.push(field.at(places[i], i));
+    // Each vertex goes its whole way, unless that folds the plane or the surface over it.
+    let mut part = vec![1.0; domain.points.len()];
+    for _ in 0..MOST_SURFACES {
+        let places = field.spread(&mut part);
+        let front = field.heights(&places);
+        let folded: Vec<[u32; 3]> = domain.triangles.iter().filter(|&&t| folds(domain, &places, &front, t)).copied().collect();
+        if folded.is_empty() {
+            return close(outline, domain, &places, &front, options.height);
+        }
+        field.hold(&mut part, &folded, 0.0);
     }
-    close(outline, domain, &places, &front, options.height)
+    let front = field.heights(&domain.points);
+    close(outline, domain, &domain.points, &front, options.height)
+}
+
+/// Whether a triangle of the surface faces away from the normals at its corners.
+fn folds(domain: &Domain, places: &[Point], front: &[(f64, Vec2)], triangle: [u32; 3]) -> bool {
+    let corner = triangle.map(|i| i as usize);
+    let height = corner.map(|i| front[i].0.sqrt());
+    let (u, v) = (places[corner[1]] - places[corner[0]], places[corner[2]] - places[corner[0]]);
+    let (du, dv) = (height[1] - height[0], height[2] - height[0]);
+    let face = [u.y * dv - du * v.y, du * v.x - u.x * dv, u.cross(v)];
+    let facing = corner.into_iter().filter(|&i| {
+        let (value, gradient) = front[i];
+        let normal = if i < domain.rim.len() { -inward(domain.rim[i].pose.heading) } else { -gradient };
+        normal.x * face[0] + normal.y * face[1] + 2.0 * value.sqrt() * face[2] > 0.0
+    });
+    facing.count() < 2
 }
 
 /// The solution, ready to be evaluated anywhere inside.
@@ -49,6 +79,8 @@ struct Field<'a> {
     per_distance: Vec<f64>,
     /// A triangle at each vertex.
     triangle_at: Vec<u32>,
+    /// The longest edge of the triangles at each vertex.
+    edges: Vec<f64>,
 }
 
 impl<'a> Field<'a> {
@@ -57,56 +89,106 @@ impl<'a> Field<'a> {
         let inside = feet.iter().zip(&solved.u).skip(domain.rim.len());
         let per_distance = solved.rise.iter().copied().chain(inside.map(|(foot, u)| u / foot.distance)).collect();
         let mut triangle_at = vec![0; domain.points.len()];
+        let mut edges = vec![0.0_f64; domain.points.len()];
         for (number, triangle) in domain.triangles.iter().enumerate() {
-            for &i in triangle {
-                triangle_at[i as usize] = number as u32;
+            for k in 0..3 {
+                let (i, j) = (triangle[k] as usize, triangle[(k + 1) % 3] as usize);
+                triangle_at[i] = number as u32;
+                let edge = (domain.points[j] - domain.points[i]).hypot();
+                edges[i] = edges[i].max(edge);
+                edges[j] = edges[j].max(edge);
             }
         }
-        Self { domain, solved, shore, gradients: gradients(domain, solved), feet, per_distance, triangle_at }
+        Self { domain, solved, shore, gradients: gradients(domain, solved), feet, per_distance, triangle_at, edges }
     }
 
-    /// Where the vertices come to lie.
-    fn spread(&self) -> Vec<Point> {
+    /// Where the vertices come to lie when each goes this part of its way; parts are lowered until no triangle is turned over.
+    fn spread(&self, part: &mut [f64]) -> Vec<Point> {
         let old = &self.domain.points;
         let ways: Vec<Vec2> = (0..old.len()).map(|i| self.way(i)).collect();
         // What is left of each vertex's distance from the rim, and so, roughly, of the areas around.
         let left: Vec<f64> = (0..old.len())
             .map(|i| if i < self.domain.rim.len() { 0.0 } else { 1.0 - ways[i].hypot() / self.shore.from_curve(&self.feet[i]) })
+            .map(|left: f64| left.clamp(0.0, 1.0))
             .collect();
         let expected = |t: [u32; 3]| t.iter().map(|&i| left[i as usize]).sum::<f64>() / 3.0;
-        let mut part = vec![1.0; old.len()];
-        let mut places: Vec<Point> = old.iter().zip(&ways).map(|(&p, &way)| p + way).collect();
-        for _ in 0..MOST_ROUNDS {
+        let mut places = old.clone();
+        for round in 0..MOST_ROUNDS {
+            for i in 0..old.len() {
+                // In powers, since what counts near the rim is by what factor the distance shrinks.
+                let graded = part[i] < 1.0 && left[i] < 1.0;
+                let way = if graded { (1.0 - libm::pow(left[i], part[i])) / (1.0 - left[i]) } else { 1.0 };
+                places[i] = old[i] + ways[i] * way;
+            }
             let turned = |&&t: &&[u32; 3]| !(signed_area(&places, t) > LEAST_AREA * expected(t) * signed_area(old, t));
-            let mut held: Vec<u32> = self.domain.triangles.iter().filter(turned).flatten().copied().collect();
+            let held: Vec<[u32; 3]> = self.domain.triangles.iter().filter(turned).copied().collect();
             if held.is_empty() {
                 return places;
             }
-            held.sort_unstable();
-            held.dedup();
-            for i in held.into_iter().map(|i| i as usize) {
-                part[i] *= HELD_BACK;
-                places[i] = old[i] + ways[i] * part[i];
-            }
+            self.hold(part, &held, if 2 * round < MOST_ROUNDS { HELD_BACK } else { 0.0 });
         }
         // Nothing is known to be worse than not to move at all.
+        part.fill(0.0);
         old.clone()
+    }
+
+    /// Lets the vertices of these triangles go so much less far, and those around them somewhat less.
+    fn hold(&self, part: &mut [f64], triangles: &[[u32; 3]], by: f64) {
+        let before = part.to_vec();
+        for i in triangles.iter().flatten().map(|&i| i as usize) {
+            part[i] = by * before[i];
+        }
+        self.grade(part);
+    }
+
+    /// The solution and its gradient at each vertex, 0 on the rim.
+    fn heights(&self, places: &[Point]) -> Vec<(f64, Vec2)> {
+        let rim = self.domain.rim.len();
+        (0..places.len()).map(|i| if i < rim { (0.0, Vec2::ZERO) } else { self.at(places[i], i) }).collect()
+    }
+
+    /// Lets a vertex go little further than its neighbours, in parts of their ways.
+    fn grade(&self, part: &mut [f64]) {
+        let rim = self.domain.rim.len() as u32;
+        for triangle in &self.domain.triangles {
+            for k in 0..3 {
+                let (i, j) = (triangle[k], triangle[(k + 1) % 3]);
+                if i >= rim && j >= rim {
+                    let (i, j) = (i as usize, j as usize);
+                    part[i] = part[i].min(part[j] + STEP_OF_PARTS);
+                    part[j] = part[j].min(part[i] + STEP_OF_PARTS);
+                }
+            }
+        }
     }
 
     /// How far and where a vertex is to be moved.
     ///
-    /// On a disc of radius R, with q = r / R, stereographic projection moves it from r to 2 r / (1 + q²), which is
-    /// by t q (1 + q) / (1 + q²) where t is the distance from the rim. There, u + |∇u|² / 4 is R², and |∇u| / 2 is r. Taken elsewhere
-    /// too, a vertex near the rim comes to lie at the distance t² / |∇u|, as on the disc, and so as high as it was far away.
+    /// On a disc of radius R, with q = r / R, stereographic projection moves it from r to 2 r / (1 + q²), which is by t q (1 + q) / (1 + q²)
+    /// where t is the distance from the rim. Elsewhere too, a vertex near the rim then comes to lie at the distance t² / |∇u|, as high
+    /// as it was far away. There, R is taken from u = t (2 R − t) and the way is straight to the rim, free of the gradient's noise;
+    /// deep inside, from u + |∇u|² / 4 = R² with |∇u| / 2 = r, which goes smoothly over ridges.
     fn way(&self, i: usize) -> Vec2 {
         let half = self.gradients[i] * 0.5;
         let radius2 = self.solved.u[i] + half.hypot2();
         if i < self.domain.rim.len() || !(radius2 > 0.0) {
             return Vec2::ZERO;
         }
+        let foot = &self.feet[i];
+        let t = self.shore.from_curve(foot);
         let outward = -half / radius2.sqrt();
-        let q = outward.hypot();
-        outward * (self.shore.from_curve(&self.feet[i]) * (1.0 + q) / (1.0 + q * q))
+        let deep = outward * (t * part_of_way(outward.hypot()));
+        let [from, to] = STRAIGHT.map(|edges| edges * self.edges[i]);
+        let direction = self.shore.direction(foot, self.domain.points[i]);
+        let agreeing = smooth((direction.dot(outward) / outward.hypot() - AGREEING[0]) / (AGREEING[1] - AGREEING[0]));
+        let weight = agreeing * smooth((to - t) / (to - from));
+        let radius = 0.5 * (self.solved.u[i] / foot.distance + t);
+        let q = (1.0 - t / radius).clamp(0.0, 1.0);
+        let straight = direction * (t * q * part_of_way(q));
+        // A ridge may have no gradient at all, and so no direction to agree with.
+        let way = if weight > 0.0 { deep + (straight - deep) * weight } else { deep };
+        let length = way.hypot();
+        if length > 0.0 { way * ((t - self.shore.cleared(foot, t, t - length)).max(0.0) / length) } else { way }
     }
 
     /// The solution and its gradient at a point near a vertex.
@@ -129,8 +211,8 @@ impl<'a> Field<'a> {
         // Never as low as the rim, or front and back would touch.
         let distance = (foot.distance + self.shore.lead(&foot)).max(1e-3 * self.shore.from_curve(&foot)).max(1e-9 * edge);
         near *= distance;
-        let weight = ((foot.distance / edge - NEAR[0]) / (NEAR[1] - NEAR[0])).clamp(0.0, 1.0);
-        let weight = if deep > 0.25 * near { weight * weight * (3.0 - 2.0 * weight) } else { 0.0 };
+        let weight = smooth((foot.distance / edge - NEAR[0]) / (NEAR[1] - NEAR[0]));
+        let weight = if deep > 0.25 * near { weight } else { 0.0 };
         (near + weight * (deep - near), gradient)
     }
 
@@ -160,6 +242,17 @@ impl<'a> Field<'a> {
         let wb = (c - p).cross(a - p) / doubled;
         [wa, wb, 1.0 - wa - wb]
     }
+}
+
+/// The way of a vertex per distance from the rim and q; see [`Field::way`].
+fn part_of_way(q: f64) -> f64 {
+    (1.0 + q) / (1.0 + q * q)
+}
+
+/// From 0 up to 0 to 1 from 1 on, without a kink.
+fn smooth(x: f64) -> f64 {
+    let x = x.clamp(0.0, 1.0);
+    x * x * (3.0 - 2.0 * x)
 }
 
 /// Front and back, joined along the rim, in the frame of the curve.

@@ -1,4 +1,4 @@
-//! Triangles inside an outline: the rim comes in, a Delaunay triangulation of its inside with angles of at least [`LEAST_ANGLE_DEGREES`]
+//! Triangles inside an outline: the rim comes in, a Delaunay triangulation of its inside with angles of at least 25 degrees
 //! away from sharp corners goes out.
 //!
 //! Delaunay refinement after Ruppert (1995) by the crate spade; vertices that it puts on the rim's chords are moved onto the curve.
@@ -10,10 +10,8 @@ use fairpath_curve::Point;
 use spade::handles::{DirectedEdgeHandle, FixedVertexHandle, VertexHandle};
 use spade::{AngleLimit, CdtEdge, Point2, RefinementParameters, Triangulation as _};
 
-/// Least angle of the triangles, degrees, except at corners that are sharper themselves. Ruppert's method is proven to end up to 20.7
-/// degrees, and ends in practice up to about 33.
-pub(crate) const LEAST_ANGLE_DEGREES: f64 = 25.0;
-/// Circumradius per shortest edge at that angle: 1 / (2 sin 25°).
+/// Circumradius per shortest edge of the worst triangle: 1 / (2 sin 25°), for a least angle of 25 degrees except at corners that are
+/// sharper themselves. Ruppert's method is proven to end up to 20.7 degrees, and ends in practice up to about 33.
 const RADIUS_PER_EDGE: f64 = 1.183_100_791_576_250_6;
 /// Rounds of splitting edges that cross the inside from rim to rim; each halves what is left of them.
 const MOST_ROUNDS: usize = 30;

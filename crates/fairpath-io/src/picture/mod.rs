@@ -6,11 +6,13 @@
 mod drawing;
 mod lettering;
 mod page;
+mod shaded;
 mod sheet;
 mod stages;
 
 pub use drawing::draw_splines;
 pub use page::Picture;
+pub(crate) use shaded::draw as draw_shaded;
 pub use stages::{StagePicture, draw_stages};
 
 /// How strokes are laid out.
