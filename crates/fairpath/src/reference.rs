@@ -4,6 +4,9 @@ use std::fmt::Write as _;
 
 use clap::CommandFactory;
 use fairpath_fit::{CurvatureSpaceOptions, FitOptions, Preset};
+use fairpath_shape::InflateOptions;
+use schemars::JsonSchema;
+use serde::Serialize;
 use serde_json::Value;
 
 use crate::args::{Cli, preset_name};
@@ -59,10 +62,20 @@ fn parameters_page() -> String {
         "\n## With `--method curvature-space`\n\nSections and equations are those of McCrae and Singh (2008).\n\n\
          | parameter | unit | kind | default | meaning |\n| --- | --- | --- | ---: | --- |\n",
     );
-    let values = serde_json::to_value(CurvatureSpaceOptions::default()).unwrap_or(Value::Null);
-    for Parameter { name, unit, description, kind } in parameters::all::<CurvatureSpaceOptions>() {
+    table_of::<CurvatureSpaceOptions>(&mut text);
+    text.push_str(
+        "\n## Of `fairpath inflate`\n\n| parameter | unit | kind | default | meaning |\n| --- | --- | --- | ---: | --- |\n",
+    );
+    table_of::<InflateOptions>(&mut text);
+    text
+}
+
+/// A row for each parameter, with its default.
+fn table_of<T: JsonSchema + Serialize + Default>(text: &mut String) {
+    let cell = |text: &str| text.replace('|', "\\|");
+    let values = serde_json::to_value(T::default()).unwrap_or(Value::Null);
+    for Parameter { name, unit, description, kind } in parameters::all::<T>() {
         let value = parameters::show(&values[&name]);
         let _ = writeln!(text, "| `{name}` | {} | {} | {value} | {} |", cell(&unit), cell(&kind), cell(&description));
     }
-    text
 }

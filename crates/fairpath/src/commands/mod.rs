@@ -4,6 +4,7 @@ pub(crate) mod convert;
 pub(crate) mod fit;
 mod fit_inputs;
 mod fit_report;
+pub(crate) mod inflate;
 mod method_options;
 
 /// How a command ended, when its arguments and inputs were usable.
