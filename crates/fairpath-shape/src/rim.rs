@@ -11,10 +11,10 @@ use fairpath_curve::{Point, Pose};
 const MOST_TURN: f64 = 0.26;
 /// The same where the curve bends inwards: there the rows of triangles along the rim can only be as fine as the edges are straight.
 const MOST_TURN_INWARDS: f64 = 0.13;
-/// Edge length per radius of the largest circle that fits inside at the edge: some eight edges around, some four across.
-const PER_RADIUS: f64 = 0.5;
+/// Edge length per radius of the largest circle that fits inside at the edge: some twenty edges around, some seven across.
+const PER_RADIUS: f64 = 0.3;
 /// Edges that are short for narrowness alone are at least this part of the wanted length: a corner is narrow without end.
-const SHORTEST: f64 = 0.1;
+const SHORTEST: f64 = 0.03;
 /// How fast edge lengths may grow along the rim. Triangles that keep angles of 25 degrees could grow faster.
 const GROWTH: f64 = 0.3;
 /// Fewest edges between two corners, and of a rim without corners.

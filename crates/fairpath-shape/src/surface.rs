@@ -32,7 +32,7 @@ const MOST_SURFACES: usize = 12;
 const MOST_STEPS: usize = 10_000;
 /// The part of the height near the rim that comes from the distance to the curve, so that it is true in proportion however small: all up
 /// to so many edge lengths from the rim, and none from so many on.
-const NEAR: [f64; 2] = [1.0, 3.0];
+const NEAR: [f64; 2] = [0.1, 0.6];
 
 /// The surface over the domain, and below it.
 pub(crate) fn raise(outline: &Outline, domain: &Domain, solved: &Solved, options: &InflateOptions) -> Mesh {
