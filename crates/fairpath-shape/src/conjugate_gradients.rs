@@ -190,14 +190,13 @@ mod tests {
 
     /// Numbers in no order that are the same on every run.
     fn scattered(count: usize) -> Vec<f64> {
-        let next = |state: &mut u32| {
-            *state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-            Some(f64::from(*state >> 8) / f64::from(1 << 24) - 0.5)
-        };
-        std::iter::successors(Some(12_345_u32), |s| Some(*s)).take(1).flat_map(|s| {
-            let mut state = s;
-            std::iter::from_fn(move || next(&mut state)).take(count).collect::<Vec<_>>()
-        }).collect()
+        let mut state = 12_345_u32;
+        std::iter::repeat_with(|| {
+            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            f64::from(state >> 8) / f64::from(1 << 24) - 0.5
+        })
+        .take(count)
+        .collect()
     }
 
     #[test]

@@ -10,7 +10,9 @@ pub enum InflateError {
     #[error("the curve is open and encloses nothing: close it, for example by fitting it as a closed stroke")]
     Open,
     /// The spline is too small for the numbers that its place is given in, or encloses nothing.
-    #[error("the curve is {size:e} across at {reach:e} from the origin, too little to tell inside from outside: scale it or move it")]
+    #[error(
+        "the curve is {size:e} across at {reach:e} from the origin, too little to tell inside from outside: scale it or move it"
+    )]
     TooSmall {
         /// Larger side of the bounding box.
         size: f64,

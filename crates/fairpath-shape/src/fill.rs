@@ -61,9 +61,8 @@ pub(crate) fn fill(points: &[Point]) -> Result<Filled, Obstacle> {
     }
     // Equal points are merged, and a vertex on another edge parts that edge: either way an edge is missing.
     let vertex = FixedVertexHandle::from_index;
-    let missing = (0..count).find(|&i| {
-        cdt.num_vertices() != count || !cdt.exists_constraint(vertex(i), vertex((i + 1) % count))
-    });
+    let missing =
+        (0..count).find(|&i| cdt.num_vertices() != count || !cdt.exists_constraint(vertex(i), vertex((i + 1) % count)));
     match missing {
         Some(i) => Err(crossing(i)),
         None => Ok(Filled::new(cdt)),

@@ -18,6 +18,9 @@ const USUAL_AREA: f64 = 0.58;
 /// Largest area that refinement allows, as a part of that of a triangle with the rim's edges.
 const LARGEST_AREA: f64 = 1.3;
 
+/// Most edges of a rim, before any are added for bends and narrow places. Thinner shapes are needles ten thousand times as long as wide.
+const MOST_RIM: f64 = 50_000.0;
+
 /// A surface with what there is to know about it.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
@@ -37,6 +40,10 @@ pub fn inflate(spline: &Spline, options: &InflateOptions) -> Result<Inflated, In
     options.check()?;
     let outline = Outline::new(spline)?;
     let edge = edge_length(&outline, options);
+    let too_many = InflateError::TooManyTriangles { limit: MOST_TRIANGLES as usize };
+    if !(outline.length() / edge <= MOST_RIM) {
+        return Err(too_many);
+    }
     let rim = rim::sample(&outline, edge, options.accuracy);
     // Twice as many triangles as vertices, and twice more for the back.
     let most = MOST_TRIANGLES as usize / 4;
@@ -46,7 +53,7 @@ pub fn inflate(spline: &Spline, options: &InflateOptions) -> Result<Inflated, In
             let p = outline.outward(p);
             InflateError::TooNarrow { x: p.x, y: p.y }
         }
-        Obstacle::TooMany => InflateError::TooManyTriangles { limit: MOST_TRIANGLES as usize },
+        Obstacle::TooMany => too_many,
     })?;
     let solved = solve_poisson(&domain)?;
     let mesh = raise(&outline, &domain, &solved, options);

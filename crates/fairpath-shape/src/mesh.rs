@@ -52,7 +52,9 @@ impl fmt::Display for MeshFault {
             Self::Degenerate(i) => write!(f, "triangle {i} has no area"),
             Self::Inverted(i) => write!(f, "triangle {i} faces away from its normals"),
             Self::OpenEdge(a, b) => write!(f, "the edge from vertex {a} to {b} has a triangle on one side only"),
-            Self::CrowdedEdge(a, b) => write!(f, "the edge from vertex {a} to {b} is in two triangles the same way round"),
+            Self::CrowdedEdge(a, b) => {
+                write!(f, "the edge from vertex {a} to {b} is in two triangles the same way round")
+            }
             Self::PinchedVertex(i) => write!(f, "two parts of the surface meet in vertex {i} alone"),
             Self::LooseVertex(i) => write!(f, "vertex {i} is in no triangle"),
         }

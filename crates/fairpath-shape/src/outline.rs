@@ -51,17 +51,24 @@ impl Outline {
         if !(size >= LEAST && size > SMALLEST * reach) {
             return Err(InflateError::TooSmall { size, reach });
         }
+        refuse_crossings(spline)?;
         let area = signed_area(spline, bounds.center());
         if !(area.abs() > NO_AREA * size * size) {
             return Err(InflateError::TooSmall { size, reach });
         }
-        refuse_crossings(spline)?;
         let spline = if area < 0.0 { spline.reversed() } else { spline.clone() };
         let mut knots = vec![0.0];
         for segment in spline.segments() {
             knots.push(knots[knots.len() - 1] + segment.length / size);
         }
-        let mut outline = Self { spline, centre: bounds.center(), scale: size, area: area.abs() / (size * size), corners: Vec::new(), knots };
+        let mut outline = Self {
+            spline,
+            centre: bounds.center(),
+            scale: size,
+            area: area.abs() / (size * size),
+            corners: Vec::new(),
+            knots,
+        };
         outline.corners = outline.find_corners();
         Ok(outline)
     }

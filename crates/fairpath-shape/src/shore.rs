@@ -150,7 +150,11 @@ impl Shore {
         let (a, b) = (self.points[foot.chord], self.points[(foot.chord + 1) % self.points.len()]);
         let way = a.lerp(b, foot.along) - p;
         let length = way.hypot();
-        if foot.distance > 0.0 && length > 0.0 { way / length } else { Vec2::new((b - a).y, (a - b).x) / (b - a).hypot() }
+        if foot.distance > 0.0 && length > 0.0 {
+            way / length
+        } else {
+            Vec2::new((b - a).y, (a - b).x) / (b - a).hypot()
+        }
     }
 
     /// How much further a function that vanishes on the curve has risen than one that vanishes on the polygon, as a distance.

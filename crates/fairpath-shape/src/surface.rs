@@ -27,7 +27,7 @@ const HELD_BACK: f64 = 0.8;
 /// How often vertices are held back before all stay where they were; from half way on, those in question stay at once.
 const MOST_ROUNDS: usize = 80;
 /// How often surfaces are made until none of their triangles is folded over.
-const MOST_SURFACES: usize = 12;
+const MOST_SURFACES: usize = 4;
 /// Steps from triangle to triangle on the way to a point; the longest way leads through about as many as lie across.
 const MOST_STEPS: usize = 10_000;
 /// The part of the height near the rim that comes from the distance to the curve, so that it is true in proportion however small: all up
@@ -40,32 +40,75 @@ pub(crate) fn raise(outline: &Outline, domain: &Domain, solved: &Solved, options
     let field = Field::new(domain, solved, &shore);
     // Each vertex goes its whole way, unless that folds the plane or the surface over it.
     let mut part = vec![1.0; domain.points.len()];
+    let mut places = field.spread(&mut part);
+    let mut front = field.heights(&places);
     for _ in 0..MOST_SURFACES {
-        let places = field.spread(&mut part);
-        let front = field.heights(&places);
-        let folded: Vec<[u32; 3]> = domain.triangles.iter().filter(|&&t| folds(domain, &places, &front, t)).copied().collect();
+        let folded = folded(domain, &places, &front, options.height);
         if folded.is_empty() {
-            return close(outline, domain, &places, &front, options.height);
+            break;
         }
         field.hold(&mut part, &folded, 0.0);
+        places = field.spread(&mut part);
+        front = field.heights(&places);
     }
-    let front = field.heights(&domain.points);
-    close(outline, domain, &domain.points, &front, options.height)
+    // What is left is too coarse for the solution's gradient to tell its slope, as in the tips of spikes.
+    let folded = folded(domain, &places, &front, options.height);
+    level(domain, &places, &mut front, &folded);
+    close(outline, domain, &places, &front, options.height)
 }
 
-/// Whether a triangle of the surface faces away from the normals at its corners.
-fn folds(domain: &Domain, places: &[Point], front: &[(f64, Vec2)], triangle: [u32; 3]) -> bool {
-    let corner = triangle.map(|i| i as usize);
-    let height = corner.map(|i| front[i].0.sqrt());
-    let (u, v) = (places[corner[1]] - places[corner[0]], places[corner[2]] - places[corner[0]]);
-    let (du, dv) = (height[1] - height[0], height[2] - height[0]);
-    let face = [u.y * dv - du * v.y, du * v.x - u.x * dv, u.cross(v)];
-    let facing = corner.into_iter().filter(|&i| {
-        let (value, gradient) = front[i];
-        let normal = if i < domain.rim.len() { -inward(domain.rim[i].pose.heading) } else { -gradient };
-        normal.x * face[0] + normal.y * face[1] + 2.0 * value.sqrt() * face[2] > 0.0
-    });
-    facing.count() < 2
+/// The triangles of the surface that face away from the normals at most of their corners.
+fn folded(domain: &Domain, places: &[Point], front: &[(f64, Vec2)], height: f64) -> Vec<[u32; 3]> {
+    let folds = |&&triangle: &&[u32; 3]| {
+        let face = face(places, front, triangle);
+        let facing = triangle.iter().filter(|&&i| {
+            let (value, gradient) = front[i as usize];
+            let on_rim = (i as usize) < domain.rim.len();
+            let normal = if on_rim { -inward(domain.rim[i as usize].pose.heading) } else { -gradient };
+            let level = normal.x * face[0] + normal.y * face[1];
+            let square = height * height;
+            (if on_rim { level } else { square * level + 2.0 * value.sqrt() * face[2] }) > 0.0
+        });
+        facing.count() < 2
+    };
+    domain.triangles.iter().filter(folds).copied().collect()
+}
+
+/// Normal of a triangle of the surface with height 1; its length is twice the area.
+fn face(places: &[Point], front: &[(f64, Vec2)], triangle: [u32; 3]) -> [f64; 3] {
+    let [a, b, c] = triangle.map(|i| i as usize);
+    let (u, v) = (places[b] - places[a], places[c] - places[a]);
+    let [ha, hb, hc] = [a, b, c].map(|i| front[i].0.sqrt());
+    let (du, dv) = (hb - ha, hc - ha);
+    [u.y * dv - du * v.y, du * v.x - u.x * dv, u.cross(v)]
+}
+
+/// Gives the vertices of these triangles the mean normal of the triangles around them, as a gradient.
+fn level(domain: &Domain, places: &[Point], front: &mut [(f64, Vec2)], triangles: &[[u32; 3]]) {
+    let mut vertices: Vec<u32> =
+        triangles.iter().flatten().copied().filter(|&i| i as usize >= domain.rim.len()).collect();
+    if vertices.is_empty() {
+        return;
+    }
+    vertices.sort_unstable();
+    vertices.dedup();
+    let mut sums = vec![[0.0; 3]; vertices.len()];
+    for &triangle in &domain.triangles {
+        let mut unit = None;
+        for i in triangle {
+            if let Ok(at) = vertices.binary_search(&i) {
+                let unit = unit.get_or_insert_with(|| normalised(face(places, front, triangle)));
+                for k in 0..3 {
+                    sums[at][k] += unit[k];
+                }
+            }
+        }
+    }
+    for (i, sum) in vertices.into_iter().zip(sums) {
+        // The normal has the direction of (−∇u, 2 √u); all triangles of the front face up.
+        let scale = 2.0 * front[i as usize].0.sqrt() / sum[2];
+        front[i as usize].1 = -Vec2::new(sum[0], sum[1]) * scale;
+    }
 }
 
 /// The solution, ready to be evaluated anywhere inside.
@@ -108,7 +151,13 @@ impl<'a> Field<'a> {
         let ways: Vec<Vec2> = (0..old.len()).map(|i| self.way(i)).collect();
         // What is left of each vertex's distance from the rim, and so, roughly, of the areas around.
         let left: Vec<f64> = (0..old.len())
-            .map(|i| if i < self.domain.rim.len() { 0.0 } else { 1.0 - ways[i].hypot() / self.shore.from_curve(&self.feet[i]) })
+            .map(|i| {
+                if i < self.domain.rim.len() {
+                    0.0
+                } else {
+                    1.0 - ways[i].hypot() / self.shore.from_curve(&self.feet[i])
+                }
+            })
             .map(|left: f64| left.clamp(0.0, 1.0))
             .collect();
         let expected = |t: [u32; 3]| t.iter().map(|&i| left[i as usize]).sum::<f64>() / 3.0;
@@ -209,7 +258,8 @@ impl<'a> Field<'a> {
         }
         let foot = self.shore.nearest_from(p, Shore::chord(&self.feet[vertex]));
         // Never as low as the rim, or front and back would touch.
-        let distance = (foot.distance + self.shore.lead(&foot)).max(1e-3 * self.shore.from_curve(&foot)).max(1e-9 * edge);
+        let distance =
+            (foot.distance + self.shore.lead(&foot)).max(1e-3 * self.shore.from_curve(&foot)).max(1e-9 * edge);
         near *= distance;
         let weight = smooth((foot.distance / edge - NEAR[0]) / (NEAR[1] - NEAR[0]));
         let weight = if deep > 0.25 * near { weight } else { 0.0 };
@@ -226,7 +276,9 @@ impl<'a> Field<'a> {
             order.sort_by(|&a, &b| weights[a].total_cmp(&weights[b]));
             // Over the edge that the point is furthest beyond, or the next if that is the rim.
             let next = order.into_iter().filter(|&k| weights[k] < 0.0);
-            let Some(next) = next.map(|k| self.domain.neighbours[at as usize][k]).find(|&n| n != OUTSIDE) else { break };
+            let Some(next) = next.map(|k| self.domain.neighbours[at as usize][k]).find(|&n| n != OUTSIDE) else {
+                break;
+            };
             at = next;
             weights = self.weights(p, at);
         }

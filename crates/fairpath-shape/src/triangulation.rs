@@ -1,7 +1,8 @@
 //! Triangles inside an outline: the rim comes in, a Delaunay triangulation of its inside with angles of at least 25 degrees
 //! away from sharp corners goes out.
 //!
-//! Delaunay refinement after Ruppert (1995) by the crate spade; vertices that it puts on the rim's chords are moved onto the curve.
+//! Delaunay refinement after Ruppert (1995) by the crate spade; vertices that it puts on the rim's chords are then moved onto the curve,
+//! which costs up to seven of the 25 degrees where edges turn by a quarter of a radian, and hardly anything where they are fine.
 
 use crate::fill::{Cdt, Filled, Obstacle, fill, from_spade, inside};
 use crate::outline::Outline;
@@ -204,4 +205,84 @@ fn connected(filled: &Filled, order: &[u32]) -> (Vec<[u32; 3]>, Vec<[u32; 3]>) {
 pub(crate) fn signed_area(points: &[Point], triangle: [u32; 3]) -> f64 {
     let [a, b, c] = triangle.map(|i| points[i as usize]);
     0.5 * (b - a).cross(c - a)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use fairpath_curve::{Continuity, Segment, Spline};
+    use std::f64::consts::{FRAC_PI_2, PI};
+
+    /// A rectangle with rounded ends, and one with corners.
+    fn stadium() -> Spline {
+        let (a, b) = (Point::new(0.0, 0.0), Point::new(3.0, 2.0));
+        let parts = vec![
+            Segment::line(a, 0.0, 3.0),
+            Segment::arc(Point::new(3.0, 0.0), 0.0, PI, 1.0),
+            Segment::line(b, PI, 3.0),
+            Segment::arc(Point::new(0.0, 2.0), PI, PI, 1.0),
+        ];
+        Spline::new(parts, vec![Continuity::G1; 4], true).unwrap()
+    }
+
+    fn square() -> Spline {
+        let corners = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)];
+        let side = |(i, &p): (usize, &(f64, f64))| Segment::line(Point::from(p), FRAC_PI_2 * i as f64, 1.0);
+        Spline::new(corners.iter().enumerate().map(side).collect(), vec![Continuity::G0; 4], true).unwrap()
+    }
+
+    fn least_angle(domain: &Domain) -> f64 {
+        let angle = |t: &[u32; 3], k: usize| {
+            let p = t.map(|i| domain.points[i as usize]);
+            let (u, v) = (p[(k + 1) % 3] - p[k], p[(k + 2) % 3] - p[k]);
+            libm::atan2(u.cross(v), u.dot(v)).to_degrees()
+        };
+        domain.triangles.iter().flat_map(|t| [angle(t, 0), angle(t, 1), angle(t, 2)]).fold(180.0, f64::min)
+    }
+
+    #[test]
+    fn triangles_keep_their_angles_where_no_corner_is_sharper() {
+        for (spline, edge) in [(stadium(), 0.05), (stadium(), 0.01), (square(), 0.05), (square(), 0.01)] {
+            let outline = Outline::new(&spline).unwrap();
+            let rim = rim::sample(&outline, edge, 1e-3);
+            let domain = triangulate(&outline, rim, 0.5 * edge * edge, 100_000).unwrap();
+            // Moving vertices onto the curve costs some degrees where the rim's edges turn by a quarter of a radian.
+            let bound = if edge < 0.02 { 23.0 } else { 18.0 };
+            assert!(least_angle(&domain) > bound, "{} with {edge}", least_angle(&domain));
+        }
+    }
+
+    #[test]
+    fn triangles_fill_the_outline_and_know_their_neighbours() {
+        let outline = Outline::new(&stadium()).unwrap();
+        let rim = rim::sample(&outline, 0.02, 1e-4);
+        let domain = triangulate(&outline, rim, 2e-4, 100_000).unwrap();
+        let area: f64 = domain.triangles.iter().map(|&t| signed_area(&domain.points, t)).sum();
+        assert!((area / outline.area - 1.0).abs() < 1e-3, "{area} of {}", outline.area);
+        let mut open = 0;
+        for (i, (triangle, neighbours)) in domain.triangles.iter().zip(&domain.neighbours).enumerate() {
+            for k in 0..3 {
+                let edge = [triangle[(k + 1) % 3], triangle[(k + 2) % 3]];
+                if neighbours[k] == OUTSIDE {
+                    assert!(edge.iter().all(|&v| (v as usize) < domain.rim.len()));
+                    open += 1;
+                } else {
+                    let across = neighbours[k] as usize;
+                    assert!(domain.neighbours[across].contains(&(i as u32)));
+                    assert!(edge.iter().all(|v| domain.triangles[across].contains(v)));
+                    assert!(!edge.iter().all(|&v| (v as usize) < domain.rim.len()), "no edge leads from rim to rim");
+                }
+            }
+        }
+        assert_eq!(open, domain.rim.len());
+    }
+
+    #[test]
+    fn too_many_vertices_and_a_crossing_rim_are_told() {
+        let outline = Outline::new(&square()).unwrap();
+        let rim = rim::sample(&outline, 0.01, 1e-3);
+        assert!(matches!(triangulate(&outline, rim, 1e-5, 500), Err(Obstacle::TooMany)));
+        let bow = [(0.0, 0.0), (1.0, 1.0), (1.0, 0.0), (0.0, 1.0)].map(Point::from);
+        assert!(matches!(fill(&bow), Err(Obstacle::Crossing(_))));
+    }
 }

@@ -97,7 +97,8 @@ fn the_rim_lies_on_the_curve_within_the_accuracy_and_its_normals_are_level() {
 #[test]
 fn height_scales_the_surface_across_and_nothing_else() {
     let spline = shapes::ellipse(2.0, 1.0, 0.0);
-    let (plain, high) = (surface(&spline, &with(3_000)), surface(&spline, &InflateOptions { height: 2.5, ..with(3_000) }));
+    let (plain, high) =
+        (surface(&spline, &with(3_000)), surface(&spline, &InflateOptions { height: 2.5, ..with(3_000) }));
     assert_sound(&high, "high");
     for (a, b) in plain.vertices.iter().zip(&high.vertices) {
         assert!(a[0] == b[0] && a[1] == b[1] && (2.5 * a[2] - b[2]).abs() < 1e-12);
@@ -204,7 +205,8 @@ fn shapes_of_all_kinds() -> impl Strategy<Value = Spline> {
         // A needle: two arcs that meet at small angles.
         (0.02..1.5_f64).prop_map(|half| {
             let radius = 0.5 / half.sin();
-            let arc = |x: f64, heading: f64| Segment::arc(Point::new(x, 0.0), heading, 2.0 * half * radius, 1.0 / radius);
+            let arc =
+                |x: f64, heading: f64| Segment::arc(Point::new(x, 0.0), heading, 2.0 * half * radius, 1.0 / radius);
             Spline::new(vec![arc(-0.5, -half), arc(0.5, PI - half)], vec![Continuity::G0; 2], true).unwrap()
         }),
     ]
@@ -267,7 +269,12 @@ fn what_is_beyond_all_measure_is_refused() {
     let needle = shapes::polygon(&[(0.0, 0.0), (1.0, 0.0), (1.0, 1e-7), (0.0, 1e-7)]);
     let refused = inflate(&needle, &none);
     assert!(
-        matches!(refused, Err(InflateError::TooManyTriangles { .. } | InflateError::TooNarrow { .. } | InflateError::MeetsItself { .. })),
+        matches!(
+            refused,
+            Err(InflateError::TooManyTriangles { .. }
+                | InflateError::TooNarrow { .. }
+                | InflateError::MeetsItself { .. })
+        ),
         "{:?}",
         refused.map(|i| i.mesh.triangles.len())
     );

@@ -42,7 +42,10 @@ fn each_fault_is_found() {
     assert!(broken(&|m| m.normals.iter_mut().flatten().for_each(|x| *x = -*x)).contains(&MeshFault::Inverted(0)));
     assert!(broken(&|m| m.triangles.truncate(3)).contains(&MeshFault::OpenEdge(2, 1)));
     let flipped = broken(&|m| m.triangles[0] = [0, 1, 2]);
-    assert!(flipped.contains(&MeshFault::CrowdedEdge(0, 1)) && flipped.contains(&MeshFault::OpenEdge(0, 2)), "{flipped:?}");
+    assert!(
+        flipped.contains(&MeshFault::CrowdedEdge(0, 1)) && flipped.contains(&MeshFault::OpenEdge(0, 2)),
+        "{flipped:?}"
+    );
     assert!(broken(&|m| m.triangles.push([1, 2, 3])).contains(&MeshFault::CrowdedEdge(1, 2)));
     let loose = broken(&|m| {
         m.vertices.push([5.0; 3]);
