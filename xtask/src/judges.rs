@@ -80,7 +80,8 @@ pub(crate) fn gltf() -> Result<Outcome> {
         Err(error) => return Ok(Outcome::Skipped(format!("{error:#}"))),
     };
     let folder = tree::scratch("judges")?;
-    let mut strokes: Vec<PathBuf> = ["duck.json", "leaf.svg"].map(|name| tree::root().join("examples").join(name)).into();
+    let mut strokes: Vec<PathBuf> =
+        ["duck.json", "leaf.svg"].map(|name| tree::root().join("examples").join(name)).into();
     let synthetic = tree::strokes().join("synthetic.json");
     if synthetic.is_file() || tree::on_build_server() {
         strokes.push(synthetic);

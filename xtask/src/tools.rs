@@ -63,7 +63,8 @@ pub(crate) fn gltf_validator() -> Result<PathBuf> {
     }
     let from = tree::root().join("xtask/judges/gltf");
     let folder = tree::cache().join("gltf");
-    let lock = fs::read_to_string(from.join("package-lock.json")).context("the lock file of the glTF judge is missing")?;
+    let lock =
+        fs::read_to_string(from.join("package-lock.json")).context("the lock file of the glTF judge is missing")?;
     let stamp = folder.join("installed-lock.json");
     // The stamp is written last, so a broken installation is never taken for a good one.
     if fs::read_to_string(&stamp).is_ok_and(|text| text == lock) {

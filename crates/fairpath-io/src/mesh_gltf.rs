@@ -65,11 +65,11 @@ impl Parts {
         let near: Vec<[f32; 3]> = vertices.iter().map(|v| [0, 1, 2].map(|k| (v[k] - middle[k]) as f32)).collect();
         let size = near.iter().flatten().fold(0.0_f32, |m, x| m.max(x.abs()));
         if !(size.is_finite() && size > 1e-30) || !middle.iter().all(|x| x.abs() < f64::from(f32::MAX)) {
-            let problem = format!("it is {size:e} m large, which glTF's numbers of 32 bits cannot hold; scale the drawing");
+            let problem =
+                format!("it is {size:e} m large, which glTF's numbers of 32 bits cannot hold; scale the drawing");
             return Err(Error::Unwritable { format: "glTF", place: format!("surface {:?}", entry.name), problem });
         }
-        let normals: Vec<[f32; 3]> =
-            entry.mesh.normals.iter().map(|&n| upright(n, file.y).map(|x| x as f32)).collect();
+        let normals: Vec<[f32; 3]> = entry.mesh.normals.iter().map(|&n| upright(n, file.y).map(|x| x as f32)).collect();
         let position = self.vectors(&near, true);
         let normal = self.vectors(&normals, false);
         let indices = self.indices(&entry.mesh.triangles);
