@@ -146,7 +146,7 @@ fn what_no_file_should_have_is_refused_with_its_place() {
     refused(&|f| f.surfaces[0].mesh.vertices[0][1] = f64::NAN, "surface \"near\": a coordinate");
     refused(&|f| f.surfaces[1].mesh.vertices[0][1] = f64::INFINITY, "a coordinate");
     refused(&|f| f.surfaces[0].mesh.normals[0] = [0.0; 3], "a normal");
-    refused(&|f| drop(f.surfaces[0].mesh.normals.pop()), "normals");
+    refused(&|f| f.surfaces[0].mesh.normals.truncate(3), "normals");
     refused(&|f| f.surfaces[0].mesh.triangles[0][2] = 4, "a vertex that does not exist");
     for length in [1e-60, 1e60] {
         let mesh = tetrahedron([0.0; 3], length);

@@ -127,7 +127,7 @@ impl Shore {
     }
 
     /// Distance from the curve itself: to the chord, and from there along a parabola with the curve's bulge.
-    pub(crate) fn from_curve(&self, foot: &Foot) -> f64 {
+    pub(crate) fn off_curve(&self, foot: &Foot) -> f64 {
         foot.distance + 4.0 * foot.along * (1.0 - foot.along) * self.bulges[foot.chord]
     }
 

@@ -23,7 +23,7 @@ const AGREEING: [f64; 2] = [0.9, 0.98];
 /// Largest difference between the parts of their ways that neighbours go, where some are held back.
 const STEP_OF_PARTS: f64 = 0.15;
 /// What is left of the way that a vertex moves when it turns a triangle over, each time.
-const HELD_BACK: f64 = 0.8;
+const HELD_BACK: f64 = 0.7;
 /// How often vertices are held back before all stay where they were; from half way on, those in question stay at once.
 const MOST_ROUNDS: usize = 80;
 /// How often surfaces are made until none of their triangles is folded over.
@@ -155,26 +155,35 @@ impl<'a> Field<'a> {
                 if i < self.domain.rim.len() {
                     0.0
                 } else {
-                    1.0 - ways[i].hypot() / self.shore.from_curve(&self.feet[i])
+                    1.0 - ways[i].hypot() / self.shore.off_curve(&self.feet[i])
                 }
             })
             .map(|left: f64| left.clamp(0.0, 1.0))
             .collect();
         let expected = |t: [u32; 3]| t.iter().map(|&i| left[i as usize]).sum::<f64>() / 3.0;
         let mut places = old.clone();
+        // Only what moved since the last round has to be looked at again.
+        let mut moved = vec![true; old.len()];
         for round in 0..MOST_ROUNDS {
-            for i in 0..old.len() {
+            for i in (0..old.len()).filter(|&i| moved[i]) {
                 // In powers, since what counts near the rim is by what factor the distance shrinks.
                 let graded = part[i] < 1.0 && left[i] < 1.0;
                 let way = if graded { (1.0 - libm::pow(left[i], part[i])) / (1.0 - left[i]) } else { 1.0 };
                 places[i] = old[i] + ways[i] * way;
             }
-            let turned = |&&t: &&[u32; 3]| !(signed_area(&places, t) > LEAST_AREA * expected(t) * signed_area(old, t));
+            let turned = |&&t: &&[u32; 3]| {
+                t.iter().any(|&i| moved[i as usize])
+                    && !(signed_area(&places, t) > LEAST_AREA * expected(t) * signed_area(old, t))
+            };
             let held: Vec<[u32; 3]> = self.domain.triangles.iter().filter(turned).copied().collect();
             if held.is_empty() {
                 return places;
             }
+            let before = part.to_vec();
             self.hold(part, &held, if 2 * round < MOST_ROUNDS { HELD_BACK } else { 0.0 });
+            for i in 0..old.len() {
+                moved[i] = part[i] != before[i];
+            }
         }
         // Nothing is known to be worse than not to move at all.
         part.fill(0.0);
@@ -224,7 +233,7 @@ impl<'a> Field<'a> {
             return Vec2::ZERO;
         }
         let foot = &self.feet[i];
-        let t = self.shore.from_curve(foot);
+        let t = self.shore.off_curve(foot);
         let outward = -half / radius2.sqrt();
         let deep = outward * (t * part_of_way(outward.hypot()));
         let [from, to] = STRAIGHT.map(|edges| edges * self.edges[i]);
@@ -259,7 +268,7 @@ impl<'a> Field<'a> {
         let foot = self.shore.nearest_from(p, Shore::chord(&self.feet[vertex]));
         // Never as low as the rim, or front and back would touch.
         let distance =
-            (foot.distance + self.shore.lead(&foot)).max(1e-3 * self.shore.from_curve(&foot)).max(1e-9 * edge);
+            (foot.distance + self.shore.lead(&foot)).max(1e-3 * self.shore.off_curve(&foot)).max(1e-9 * edge);
         near *= distance;
         let weight = smooth((foot.distance / edge - NEAR[0]) / (NEAR[1] - NEAR[0]));
         let weight = if deep > 0.25 * near { weight } else { 0.0 };
