@@ -64,7 +64,8 @@ impl Parts {
         let middle = [0, 1, 2].map(|k| low[k] + 0.5 * (high[k] - low[k]));
         let near: Vec<[f32; 3]> = vertices.iter().map(|v| [0, 1, 2].map(|k| (v[k] - middle[k]) as f32)).collect();
         let size = near.iter().flatten().fold(0.0_f32, |m, x| m.max(x.abs()));
-        if !(size.is_finite() && size > 1e-30) || !middle.iter().all(|x| x.abs() < f64::from(f32::MAX)) {
+        let holds = size.is_finite() && size > 1e-30 && middle.iter().all(|x| x.abs() < f64::from(f32::MAX));
+        if !holds {
             let problem =
                 format!("it is {size:e} m large, which glTF's numbers of 32 bits cannot hold; scale the drawing");
             return Err(Error::Unwritable { format: "glTF", place: format!("surface {:?}", entry.name), problem });

@@ -24,6 +24,7 @@ fn time(c: &mut Criterion, name: &str, spline: &Spline, triangles: u32) {
 }
 
 fn surfaces(c: &mut Criterion) {
+    time(c, "circle", &shapes::circle((0.0, 0.0), 1.0), 50_000);
     let ellipse = shapes::ellipse(2.0, 1.0, 0.3);
     for triangles in [5_000, 50_000, 500_000] {
         time(c, "ellipse", &ellipse, triangles);
