@@ -71,6 +71,57 @@ pub(crate) fn svg() -> Result<Outcome> {
     Ok(Outcome::Passed(format!("librsvg draws it: {bytes} bytes of PNG, a blank page has {blank}")))
 }
 
+/// Inflated drawings as glTF, read by the validator of the specification's authors: all closed curves of the examples and, where the shared
+/// data folder is, of the synthetic strokes.
+pub(crate) fn gltf() -> Result<Outcome> {
+    let validator = match tools::gltf_validator() {
+        Ok(folder) => folder,
+        Err(error) if tree::on_build_server() => return Err(error),
+        Err(error) => return Ok(Outcome::Skipped(format!("{error:#}"))),
+    };
+    let folder = tree::scratch("judges")?;
+    let mut strokes: Vec<PathBuf> =
+        ["duck.json", "leaf.svg"].map(|name| tree::root().join("examples").join(name)).into();
+    let synthetic = tree::strokes().join("synthetic.json");
+    if synthetic.is_file() || tree::on_build_server() {
+        strokes.push(synthetic);
+    } else {
+        println!("skipped: the synthetic strokes are not at {}", synthetic.display());
+    }
+    let mut files = Vec::new();
+    for stroke in &strokes {
+        let stem = stroke.file_stem().context("a file of strokes has a name")?.to_string_lossy();
+        let (spline, glb) = (folder.join(format!("{stem}-to-inflate.json")), folder.join(format!("{stem}.glb")));
+        process::run(Command::new(tree::fairpath()?).arg("fit").arg(stroke).arg("-o").arg(&spline))?;
+        let ran = process::capture(Command::new(tree::fairpath()?).arg("inflate").arg(&spline).arg("-o").arg(&glb))?;
+        // Open curves have no surface, which is told with 1.
+        if !matches!(ran.code, Some(0 | 1)) {
+            bail!("{} cannot be inflated: {}", stroke.display(), ran.text);
+        }
+        files.push(glb);
+    }
+    let judge = |files: &[PathBuf]| {
+        let script = tree::root().join("xtask/judges/gltf/judge.mjs");
+        process::capture(Command::new("node").arg(script).args(files).current_dir(&validator))
+    };
+    let ran = judge(&files)?;
+    print!("{}", ran.text);
+    if ran.code != Some(0) {
+        bail!("the glTF validator finds fault");
+    }
+    // Cut off in the middle, and with a triangle of a vertex that does not exist in its last bytes.
+    let good = fs::read(&files[0])?;
+    let (cut, wrong) = (folder.join("cut.glb"), folder.join("wrong.glb"));
+    fs::write(&cut, &good[..good.len() / 2])?;
+    fs::write(&wrong, [&good[..good.len() - 4], &[0xff, 0xff, 0xff, 0x7f]].concat())?;
+    for rubbish in [cut, wrong] {
+        if judge(&[rubbish])?.code == Some(0) {
+            bail!("the judge passes rubbish, so its word is worth nothing");
+        }
+    }
+    Ok(Outcome::Passed(format!("the glTF validator has no word against {} files", files.len())))
+}
+
 fn fitted_example() -> Result<(PathBuf, PathBuf)> {
     let folder = tree::scratch("judges")?;
     let spline = folder.join("hello.json");

@@ -28,9 +28,23 @@ const LAYERS: &[Layer] = &[
         workspace: &["fairpath-curve"],
         outside: Some(&["flo_curves", "kurbo", "libm", "rayon", "schemars", "serde", "thiserror"]),
     },
-    Layer { name: "fairpath-io", workspace: &["fairpath-curve", "fairpath-fit"], outside: None },
-    Layer { name: "fairpath", workspace: &["fairpath-curve", "fairpath-fit", "fairpath-io"], outside: None },
-    Layer { name: "xtask", workspace: &["fairpath-curve", "fairpath-fit", "fairpath-io", "fairpath"], outside: None },
+    Layer {
+        name: "fairpath-shape",
+        // The fitter makes the splines of its tests.
+        workspace: &["fairpath-curve", "fairpath-fit"],
+        outside: Some(&["libm", "schemars", "serde", "spade", "thiserror"]),
+    },
+    Layer { name: "fairpath-io", workspace: &["fairpath-curve", "fairpath-fit", "fairpath-shape"], outside: None },
+    Layer {
+        name: "fairpath",
+        workspace: &["fairpath-curve", "fairpath-fit", "fairpath-shape", "fairpath-io"],
+        outside: None,
+    },
+    Layer {
+        name: "xtask",
+        workspace: &["fairpath-curve", "fairpath-fit", "fairpath-shape", "fairpath-io", "fairpath"],
+        outside: None,
+    },
 ];
 
 /// One dependency as a manifest declares it.

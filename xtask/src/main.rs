@@ -33,7 +33,7 @@ struct Cli {
 enum Chore {
     /// The one test command: style, lints, tests, documentation, layers and every outside judge.
     Test,
-    /// The judges alone: kernel, DXF and SVG.
+    /// The judges alone: kernel, DXF, SVG and glTF.
     Judge,
     /// Fit every file of the shared data folder, judge the results and hold them against the limits.
     Evaluate {

@@ -51,6 +51,7 @@ fn add_judges(steps: &mut Steps) {
     steps.step("judge: kernel", judges::kernel);
     steps.step("judge: DXF", judges::dxf);
     steps.step("judge: SVG", judges::svg);
+    steps.step("judge: glTF", judges::gltf);
 }
 
 fn command(args: &[&str], note: &str) -> Result<Outcome> {
@@ -61,7 +62,8 @@ fn command(args: &[&str], note: &str) -> Result<Outcome> {
 /// The cores read no clock and no file, start no thread, and take no platform's mathematics.
 fn core_bans() -> Result<Outcome> {
     let target = tree::scratch("bans")?;
-    let mut clippy = cargo(&["clippy", "--quiet", "--package", "fairpath-curve", "--package", "fairpath-fit", "--lib"]);
+    let mut clippy = cargo(&["clippy", "--quiet", "--lib"]);
+    clippy.args(["fairpath-curve", "fairpath-fit", "fairpath-shape"].map(|core| format!("--package={core}")));
     // A target folder of its own: cargo does not always notice that another configuration asks other questions.
     clippy.arg("--target-dir").arg(target).args(["--", "--allow", "clippy::all", "--allow", "warnings"]);
     // A hash table may be looked up but not walked: its order differs from run to run.

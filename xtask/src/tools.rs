@@ -1,4 +1,4 @@
-//! What the judges need, installed where it is missing: Python packages into `cache/`, system packages if we may.
+//! What the judges need, installed where it is missing: packages of Python and Node into `cache/`, system packages if we may.
 
 use std::fs;
 use std::path::PathBuf;
@@ -52,6 +52,33 @@ fn make_venv(folder: &PathBuf) -> Result<()> {
 /// Makes sure that `rsvg-convert` is here, if it can be had.
 pub(crate) fn rsvg_convert() -> Result<()> {
     if process::exists("rsvg-convert") { Ok(()) } else { apt("librsvg2-bin") }
+}
+
+/// The folder of the glTF validator, installed with Node's package manager in the version that the lock file pins.
+pub(crate) fn gltf_validator() -> Result<PathBuf> {
+    for (program, package) in [("node", "nodejs"), ("npm", "npm")] {
+        if !process::exists(program) {
+            apt(package)?;
+        }
+    }
+    let from = tree::root().join("xtask/judges/gltf");
+    let folder = tree::cache().join("gltf");
+    let lock =
+        fs::read_to_string(from.join("package-lock.json")).context("the lock file of the glTF judge is missing")?;
+    let stamp = folder.join("installed-lock.json");
+    // The stamp is written last, so a broken installation is never taken for a good one.
+    if fs::read_to_string(&stamp).is_ok_and(|text| text == lock) {
+        return Ok(folder);
+    }
+    fs::create_dir_all(&folder).context("cannot make cache/gltf")?;
+    for name in ["package.json", "package-lock.json"] {
+        fs::copy(from.join(name), folder.join(name)).with_context(|| format!("cannot copy {name} to cache/gltf"))?;
+    }
+    let mut install = Command::new("npm");
+    install.args(["ci", "--no-audit", "--no-fund", "--ignore-scripts", "--loglevel", "error"]).current_dir(&folder);
+    process::run(&mut install).context("cannot install the glTF validator")?;
+    fs::write(&stamp, lock).with_context(|| format!("cannot write {}", stamp.display()))?;
+    Ok(folder)
 }
 
 /// Installs a system package, which only the superuser of a Debian system may.

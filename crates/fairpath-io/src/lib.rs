@@ -1,4 +1,4 @@
-//! Readers and writers of strokes and clothoid splines, and pictures of both.
+//! Readers and writers of strokes and clothoid splines, writers of surfaces, and pictures of all.
 //!
 //! | task | use |
 //! | --- | --- |
@@ -8,9 +8,10 @@
 //! | write splines (JSON, SVG, CSV, DXF, PNG) | [`write_splines`], [`encode_splines`] |
 //! | read French curves (JSON, splines, drawings), write them | [`read_templates`], [`write_templates`] |
 //! | the sets of French curves that come along | [`shipped_templates`] |
-//! | convert | the two above, one after the other |
 //! | draw splines, a contact sheet, the steps of a fit, French curves and their pieces | [`picture`] |
 //! | compare methods on the same strokes, as a page of HTML | [`Comparison`] |
+//! | write surfaces (glTF, OBJ, PNG) | [`write_surfaces`], [`encode_surfaces`] |
+//! | convert | read splines and write them |
 //! | write any file whole or not at all | [`write_whole`] |
 //! | bound what a hostile file may cost | [`Limits`] in [`ReadOptions`] |
 //! | JSON schemas of the formats | [`strokes_schema`], [`spline_schema`], [`templates_schema`] |
@@ -44,6 +45,8 @@ mod error;
 mod geodetic;
 mod input;
 mod limits;
+mod mesh_gltf;
+mod mesh_obj;
 pub mod picture;
 mod schema;
 mod spline_csv;
@@ -60,6 +63,7 @@ mod strokes_inkml;
 mod strokes_json;
 mod strokes_svg;
 mod strokes_text;
+mod surfaces;
 mod svg_geometry;
 mod templates;
 mod templates_json;
@@ -78,6 +82,7 @@ pub use splines::{
 };
 pub use stroke_file::StrokeFile;
 pub use strokes::{StrokeFormat, encode_strokes, read_strokes, read_strokes_from, write_strokes};
+pub use surfaces::{SurfaceEntry, SurfaceFile, SurfaceFormat, encode_surfaces, write_surfaces};
 pub use templates::{
     SHIPPED_TEMPLATES, TemplateFile, TemplateOptions, encode_templates, read_templates, read_templates_from,
     shipped_templates, write_templates,

@@ -64,6 +64,21 @@ impl Unit {
         }
     }
 
+    /// Length of one unit in metres. A pixel counts as a hundredth of an inch.
+    #[must_use]
+    pub const fn metres(self) -> f64 {
+        match self {
+            Self::Px => 0.000_254,
+            Self::Pt => 0.0254 / 72.0,
+            Self::Mm => 0.001,
+            Self::Cm => 0.01,
+            Self::M => 1.0,
+            Self::Km => 1000.0,
+            Self::In => 0.0254,
+            Self::Ft => 0.3048,
+        }
+    }
+
     /// The unit of that word, if it is one.
     #[must_use]
     pub fn from_word(word: &str) -> Option<Self> {

@@ -26,6 +26,8 @@ pub enum Command {
     Fit(FitArgs),
     /// Fit by several methods and show the results side by side
     Compare(CompareArgs),
+    /// Inflate closed splines into surfaces
+    Inflate(InflateArgs),
     /// Write a spline file in another format
     Convert(ConvertArgs),
     /// List, author or draw sets of French curves
@@ -163,6 +165,32 @@ pub struct CompareArgs {
     pub stats: Option<Stats>,
 }
 
+/// Arguments of `fairpath inflate`.
+#[derive(Args, Debug)]
+#[command(after_help = EXIT_CODES)]
+pub struct InflateArgs {
+    /// A spline file with closed splines: JSON (fairpath-spline 1), or SVG or CSV as written by fairpath; `-` is standard input
+    #[arg(value_name = "SPLINE", required_unless_present = "list_parameters")]
+    pub input: Option<PathBuf>,
+
+    /// Where the surfaces go, in the format of the extension: glb (glTF 2.0), obj or png (a shaded picture); `-` is standard output.
+    /// The table of one line per spline goes to standard output, unless that is taken
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Option<PathBuf>,
+
+    /// Format of the output, where the extension does not say it
+    #[arg(long, value_name = "FORMAT", requires = "output")]
+    pub format: Option<SurfaceOutput>,
+
+    /// Change a parameter; may be given many times. `--list-parameters` shows them all
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    pub set: Vec<String>,
+
+    /// Print the parameters with their units and values, and do nothing else
+    #[arg(long)]
+    pub list_parameters: bool,
+}
+
 /// Arguments of `fairpath convert`.
 #[derive(Args, Debug)]
 #[command(after_help = EXIT_CODES)]
@@ -230,6 +258,17 @@ pub enum OutputFormat {
     /// A row for each segment
     Csv,
     /// A picture
+    Png,
+}
+
+/// The formats that surfaces are written in.
+#[derive(ValueEnum, Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SurfaceOutput {
+    /// glTF 2.0 in one binary file, in metres; a px is a hundredth of an inch
+    Glb,
+    /// Wavefront OBJ, in the file's unit
+    Obj,
+    /// A shaded picture
     Png,
 }
 

@@ -18,7 +18,7 @@ use std::process::ExitCode;
 use clap::Parser;
 
 use crate::args::{Cli, Command};
-use crate::commands::{Ending, compare, convert, fit, templates};
+use crate::commands::{Ending, compare, convert, fit, inflate, templates};
 use crate::printer::Printer;
 
 /// Parses the arguments, does what they ask and says how it ended: 0 all done, 1 some stroke failed or `--strict`
@@ -37,6 +37,7 @@ pub fn run() -> ExitCode {
     let ending = match &cli.command {
         Command::Fit(args) => fit::run(args, &mut printer),
         Command::Compare(args) => compare::run(args, &mut printer),
+        Command::Inflate(args) => inflate::run(args, &mut printer),
         Command::Convert(args) => convert::run(args, &mut printer),
         Command::Templates(args) => templates::run(args, &mut printer),
     };

@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail};
+use clap::ValueEnum;
 use fairpath_io::write_whole;
 
 use crate::args::OutputFormat;
@@ -10,17 +11,17 @@ use crate::interrupt;
 
 /// A place for a result, and its form there.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) struct Destination {
+pub(crate) struct Destination<F = OutputFormat> {
     pub(crate) path: PathBuf,
-    pub(crate) format: OutputFormat,
+    pub(crate) format: F,
 }
 
-impl Destination {
+impl<F: ValueEnum> Destination<F> {
     /// The place that the arguments ask for.
     ///
     /// # Errors
     /// When neither the extension nor `format` tells the form, or the place is a folder or in none.
-    pub(crate) fn new(path: &Path, format: Option<OutputFormat>) -> Result<Self> {
+    pub(crate) fn new(path: &Path, format: Option<F>) -> Result<Self> {
         let format = match format {
             Some(format) => format,
             None => from_extension(path)?,
@@ -30,22 +31,27 @@ impl Destination {
     }
 }
 
-fn from_extension(path: &Path) -> Result<OutputFormat> {
-    const KNOWN: &str = "json, svg, dxf, csv or png";
+fn from_extension<F: ValueEnum>(path: &Path) -> Result<F> {
+    let known = known::<F>();
     if path.as_os_str() == "-" {
-        bail!("-o -: say in which form by --format {KNOWN}");
+        bail!("-o -: say in which form by --format {known}");
     }
-    let extension = path.extension().map(|e| e.to_string_lossy().to_lowercase());
-    match extension.as_deref() {
-        Some("json") => Ok(OutputFormat::Json),
-        Some("svg") => Ok(OutputFormat::Svg),
-        Some("dxf") => Ok(OutputFormat::Dxf),
-        Some("csv") => Ok(OutputFormat::Csv),
-        Some("png") => Ok(OutputFormat::Png),
-        Some(other) => {
-            bail!("{}: nothing is written as .{other}; use the extension {KNOWN}, or --format", path.display())
-        }
-        None => bail!("{}: the name has no extension; use {KNOWN}, or --format", path.display()),
+    let Some(extension) = path.extension().map(|e| e.to_string_lossy().to_lowercase()) else {
+        bail!("{}: the name has no extension; use {known}, or --format", path.display());
+    };
+    let Ok(format) = F::from_str(&extension, true) else {
+        bail!("{}: nothing is written as .{extension}; use the extension {known}, or --format", path.display());
+    };
+    Ok(format)
+}
+
+/// The formats, as one would say them.
+fn known<F: ValueEnum>() -> String {
+    let values: Vec<_> = F::value_variants().iter().filter_map(ValueEnum::to_possible_value).collect();
+    let names: Vec<&str> = values.iter().map(|value| value.get_name()).collect();
+    match names.split_last() {
+        Some((last, rest)) if !rest.is_empty() => format!("{} or {last}", rest.join(", ")),
+        _ => names.concat(),
     }
 }
 
@@ -95,10 +101,18 @@ impl Ready {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::args::SurfaceOutput;
+
+    #[test]
+    fn formats_are_listed_as_one_says_them() {
+        assert_eq!(known::<OutputFormat>(), "json, svg, dxf, csv or png");
+        assert_eq!(known::<SurfaceOutput>(), "glb, obj or png");
+    }
 
     #[test]
     fn the_extension_tells_the_format_in_any_case() {
-        assert_eq!(Destination::new(Path::new("a.SVG"), None).unwrap().format, OutputFormat::Svg);
+        assert_eq!(Destination::<OutputFormat>::new(Path::new("a.SVG"), None).unwrap().format, OutputFormat::Svg);
+        assert_eq!(Destination::<SurfaceOutput>::new(Path::new("a.Glb"), None).unwrap().format, SurfaceOutput::Glb);
         assert_eq!(Destination::new(Path::new("a.SVG"), Some(OutputFormat::Dxf)).unwrap().format, OutputFormat::Dxf);
     }
 
@@ -111,7 +125,7 @@ mod tests {
             ("/", "has no extension"),
             ("no/such/folder/a.json", "there is no folder no/such/folder; make it first"),
         ] {
-            let error = Destination::new(Path::new(path), None).unwrap_err().to_string();
+            let error = Destination::<OutputFormat>::new(Path::new(path), None).unwrap_err().to_string();
             assert!(error.contains(said), "{error}");
         }
         let error = Destination::new(Path::new("/"), Some(OutputFormat::Json)).unwrap_err().to_string();

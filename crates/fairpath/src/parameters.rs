@@ -158,7 +158,7 @@ fn unknown<'a>(key: &str, names: impl Iterator<Item = &'a str>) -> String {
     near.sort();
     let near: Vec<&str> = near.into_iter().take(4).map(|(_, name)| name).collect();
     let hint = if near.is_empty() { String::new() } else { format!("; near it: {}", near.join(", ")) };
-    format!("there is no parameter {key}{hint}; `fairpath fit --list-parameters` shows all")
+    format!("there is no parameter {key}{hint}; `--list-parameters` shows all")
 }
 
 /// Number of characters to insert, delete or replace to get from one word to the other.

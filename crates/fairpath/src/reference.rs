@@ -6,6 +6,7 @@ use clap::CommandFactory;
 use fairpath_fit::{
     CubicOptions, CurvatureSpaceOptions, FitOptions, FrenchCurveOptions, LaplacianOptions, MvcOptions, Preset,
 };
+use fairpath_shape::InflateOptions;
 use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::Value;
@@ -59,24 +60,28 @@ fn parameters_page() -> String {
         let _ = writeln!(text, " {} |", cell(&parameter.description));
     }
     text.push_str(&plain_table::<CurvatureSpaceOptions>(
-        "curvature-space",
+        "With `--method curvature-space`",
         "Sections and equations are those of McCrae and Singh (2008).",
     ));
     text.push_str(&plain_table::<FrenchCurveOptions>(
-        "french-curve",
+        "With `--method french-curve`",
         "Sections and equations are those of McCrae and Singh (2011).",
     ));
     let baseline = "This method serves for comparison.";
-    text.push_str(&plain_table::<LaplacianOptions>("laplacian", baseline));
-    text.push_str(&plain_table::<CubicOptions>("cubic", baseline));
-    text.push_str(&plain_table::<MvcOptions>("mvc", baseline));
+    text.push_str(&plain_table::<LaplacianOptions>("With `--method laplacian`", baseline));
+    text.push_str(&plain_table::<CubicOptions>("With `--method cubic`", baseline));
+    text.push_str(&plain_table::<MvcOptions>("With `--method mvc`", baseline));
+    text.push_str(&plain_table::<InflateOptions>(
+        "Of `fairpath inflate`",
+        "Sections are those of Baran, Lehtinen and Popović (2010).",
+    ));
     text
 }
 
-/// The parameters of a method that has no presets.
-fn plain_table<T: JsonSchema + Serialize + Default>(method: &str, source: &str) -> String {
+/// A section with the parameters of something that has no presets.
+fn plain_table<T: JsonSchema + Serialize + Default>(title: &str, source: &str) -> String {
     let mut text = format!(
-        "\n## With `--method {method}`\n\n{source}\n\n\
+        "\n## {title}\n\n{source}\n\n\
          | parameter | unit | kind | default | meaning |\n| --- | --- | --- | ---: | --- |\n",
     );
     let values = serde_json::to_value(T::default()).unwrap_or(Value::Null);

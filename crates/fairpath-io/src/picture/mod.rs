@@ -8,6 +8,7 @@ mod drawing;
 mod lettering;
 mod page;
 mod pieces;
+mod shaded;
 mod sheet;
 mod stages;
 
@@ -17,6 +18,7 @@ pub use drawing::draw_splines;
 pub use page::Picture;
 pub(crate) use page::{View, path_data};
 pub use pieces::draw_pieces;
+pub(crate) use shaded::draw as draw_shaded;
 pub use sheet::draw_comparison;
 pub use stages::{StagePicture, draw_stages};
 

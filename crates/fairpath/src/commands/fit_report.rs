@@ -7,6 +7,7 @@ use serde_json::{Value, json};
 
 use super::method_options::MethodOptions;
 use crate::args::OutputFormat;
+use crate::parameters::Parameter;
 use crate::printer::{Printer, columns};
 use crate::{parameters, pictures};
 
@@ -16,6 +17,11 @@ const MOST_NOTES: usize = 20;
 /// A line for each parameter: name, value, unit, kind, meaning.
 pub(crate) fn parameters(options: &MethodOptions) -> String {
     let (list, values) = options.listed();
+    listed(&list, &values)
+}
+
+/// The same for any parameters with their values.
+pub(crate) fn listed(list: &[Parameter], values: &Value) -> String {
     let head: Vec<String> = list
         .iter()
         .map(|parameter| format!("{} = {}", parameter.name, parameters::show(&values[&parameter.name])))

@@ -6,6 +6,7 @@ pub(crate) mod fit;
 mod fit_inputs;
 mod fit_report;
 mod fitting;
+pub(crate) mod inflate;
 mod method_options;
 mod template_sets;
 pub(crate) mod templates;

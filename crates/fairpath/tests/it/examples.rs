@@ -4,7 +4,8 @@ use std::fs;
 
 use super::{folder, read_json, root, run};
 
-const INPUTS: &[(&str, usize)] = &[("hello.json", 5), ("leaf.svg", 2), ("spiral.csv", 2), ("note.inkml", 2)];
+const INPUTS: &[(&str, usize)] =
+    &[("hello.json", 5), ("duck.json", 1), ("leaf.svg", 2), ("spiral.csv", 2), ("note.inkml", 2)];
 
 #[test]
 fn every_example_becomes_every_format() {

@@ -4,6 +4,7 @@ mod bad_input;
 mod compare;
 mod endings;
 mod examples;
+mod inflate;
 mod pipes;
 mod references;
 mod threads;
