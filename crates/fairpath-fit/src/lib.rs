@@ -23,6 +23,7 @@ mod direction;
 mod hooks;
 mod linear;
 mod options;
+mod oversketch;
 mod polyline;
 mod primitive_fit;
 mod resample;
@@ -34,6 +35,10 @@ mod walk;
 
 pub use curvature_space::{CurvatureEstimate, CurvatureSpaceOptions, Mode};
 pub use options::{ClosedSearch, Closing, Deviation, FitOptions, Preset, Resampling, Search, Transitions};
+pub use oversketch::{
+    FitBy, OversketchError, OversketchMode, OversketchOptions, OversketchRegion, Oversketched, oversketch, oversketch_by,
+    oversketch_region,
+};
 pub use result::{Candidate, Fit, FitError, Observer, Report, Stages, Step, Warning};
 pub use stroke::Stroke;
 

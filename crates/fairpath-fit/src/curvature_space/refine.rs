@@ -63,6 +63,7 @@ pub(crate) fn refined(
         end_factor: options.end_weight,
         short: Some(SHORT),
         pins: [None; 2],
+        held: [None; 2],
     };
     merge(&mut chain, EFFORT)?;
     Some((chain.pieces.iter().map(Piece::segment).collect(), chain.joins, shape != Shape::Open))
