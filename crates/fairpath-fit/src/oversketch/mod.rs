@@ -142,15 +142,22 @@ pub fn oversketch_by(
     Ok(Oversketched { spline: made, new, region, integrated, report, warnings })
 }
 
-/// Figures about the new segments of a spline, measured against the points that they were fitted to.
+/// Figures about the new segments of a spline and the one beside them on each side, which may have taken over a part of what they were fitted to,
+/// measured against those points.
 fn figures(spline: &Spline, new: &Range<usize>, integrated: &[Point], pixel_size: f64) -> Report {
     let mut report = Report { points: integrated.len(), ..Report::default() };
     let whole = new.len() == spline.segments().len();
     let part = if whole {
         Some(spline.clone())
     } else {
-        let joins = spline.joins()[new.start..new.end - 1].to_vec();
-        Spline::new(spline.segments()[new.clone()].to_vec(), joins, false).ok()
+        let n = spline.segments().len();
+        let before = usize::from(spline.is_closed() || new.start > 0);
+        let after = usize::from(spline.is_closed() || new.end < n);
+        let count = (before + new.len() + after).min(n);
+        let begin = new.start + n - before;
+        let segments = (0..count).map(|i| spline.segments()[(begin + i) % n]).collect();
+        let joins = (0..count - 1).map(|i| spline.joins()[(begin + i) % n]).collect();
+        Spline::new(segments, joins, false).ok()
     };
     if let Some(part) = part {
         describe(&mut report, &part, &Stroke::new("", integrated.to_vec()), pixel_size);
@@ -249,7 +256,7 @@ impl<'a> Scene<'a> {
     }
 
     /// What stays with the new part between.
-    fn spliced(&self, rest: Rest, mut new: Run, holds: [Option<Hold>; 2], course: Vec<Vec2>) -> Option<Made> {
+    fn spliced(&self, mut rest: Rest, mut new: Run, holds: [Option<Hold>; 2], course: Vec<Vec2>) -> Option<Made> {
         let [before, after] = rest.neighbours();
         chain(&mut new.segments, before, after, holds);
         let level = |hold: Option<Hold>| match hold.map_or(2, |h| h.pin.count) {
@@ -257,6 +264,7 @@ impl<'a> Scene<'a> {
             3 => Continuity::G1,
             _ => Continuity::G0,
         };
+        rest.absorb(&mut new);
         let (spline, new) = rest.with(new, holds.map(level)).ok()?;
         Some(Made { spline, new, course })
     }

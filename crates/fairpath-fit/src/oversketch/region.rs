@@ -47,7 +47,6 @@ enum Meeting {
 
 /// An end of the stroke, with its direction in the sense of drawing.
 struct StrokeEnd {
-    point: Vec2,
     /// Unit vector.
     direction: Vec2,
     meeting: Meeting,
@@ -97,7 +96,7 @@ fn stroke_end(curve: &Spline, sketch: &Polyline, last: bool, options: &Oversketc
     }
     let Some((_, station, distance)) = best else {
         let distance = curve.nearest(point.to_point()).distance;
-        return StrokeEnd { point, direction, meeting: Meeting::Away, distance };
+        return StrokeEnd { direction, meeting: Meeting::Away, distance };
     };
     let beyond = |at: f64, outward: f64| {
         let pose = curve.pose_at(at);
@@ -106,7 +105,7 @@ fn stroke_end(curve: &Spline, sketch: &Polyline, last: bool, options: &Oversketc
             && (point - pose.point.to_vec2()).dot(curve.tangent_at(at)) * outward > BEYOND
     };
     let past = beyond(0.0, -1.0) || beyond(curve.length(), 1.0);
-    StrokeEnd { point, direction, meeting: if past { Meeting::Past(station) } else { Meeting::On(station) }, distance }
+    StrokeEnd { direction, meeting: if past { Meeting::Past(station) } else { Meeting::On(station) }, distance }
 }
 
 fn not_near(ends: &[StrokeEnd; 2], options: &OversketchOptions) -> OversketchError {

@@ -19,6 +19,8 @@ pub(super) struct Rest {
     pub(super) after: Run,
     /// How the old curve runs on at the seams.
     pub(super) joins: [Continuity; 2],
+    /// Whether a segment was cut there.
+    is_cut: [bool; 2],
     closed: bool,
     /// Index in `before` of the segment with which the closed curve began, if that stays.
     first: Option<usize>,
@@ -41,14 +43,15 @@ impl Rest {
             _ => None,
         };
         let [start, end] = [place(&seams[0]), place(&seams[1])];
+        let is_cut = [start, end].map(|at| at.is_some_and(|at| at.s > 0.0));
         let joins = [start, end].map(|at| at.map_or(Continuity::G0, |at| join_at(curve, at)));
         if let (true, Some(start), Some(end)) = (curve.is_closed(), start, end) {
             let (before, first) = around(curve, end, start);
-            return Self { before, after: Run::default(), joins, closed: true, first };
+            return Self { before, after: Run::default(), joins, is_cut, closed: true, first };
         }
         let before = start.map_or_else(Run::default, |at| up_to(curve, at));
         let after = end.map_or_else(Run::default, |at| from(curve, at));
-        Self { before, after, joins, closed: false, first: None }
+        Self { before, after, joins, is_cut, closed: false, first: None }
     }
 
     /// The segments that the new part meets: the one before it and the one after.
@@ -66,6 +69,29 @@ impl Rest {
             (run.segments[i], join.and_then(|j| run.joins.get(j)).copied())
         };
         if side == 0 { (0..n).rev().map(pair).collect() } else { (0..n).map(pair).collect() }
+    }
+
+    /// Gives new lines and arcs that only go on as a segment did before it was cut back to that segment.
+    pub(super) fn absorb(&mut self, new: &mut Run) {
+        let goes_on = |a: &Segment, b: &Segment| a.kappa0 == a.kappa1 && b.kappa0 == b.kappa1 && a.kappa1 == b.kappa0;
+        if self.is_cut[0]
+            && new.segments.len() > 1
+            && let Some(last) = self.before.segments.last_mut()
+            && goes_on(last, &new.segments[0])
+        {
+            last.length += new.segments.remove(0).length;
+            new.joins.remove(0);
+        }
+        let after = if self.closed { &mut self.before } else { &mut self.after };
+        if self.is_cut[1]
+            && let [.., _, next] = new.segments[..]
+            && let Some(first) = after.segments.first_mut()
+            && goes_on(&next, first)
+        {
+            new.segments.pop();
+            new.joins.pop();
+            *first = Segment { length: next.length + first.length, ..next };
+        }
     }
 
     /// The curve with `new` between the seams, where it joins as `seams` says, and which of its segments are new.

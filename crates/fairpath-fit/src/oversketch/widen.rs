@@ -106,14 +106,19 @@ fn seam(curve: &Spline, knots: &[Knot], from: f64, ahead: bool, options: &Oversk
         }
         Seam::Place { station: knot.station, segment: knot.segment, s: 0.0 }
     };
+    let cut = |away: f64| {
+        let station = from + outward * away;
+        let (segment, s) = curve.locate(station);
+        Seam::Place { station, segment, s }
+    };
     match corner.or(wide) {
         // Nearer to the curve's end than the widening.
         None => Seam::CurveEnd { station: if ahead { curve.length() } else { 0.0 } },
-        Some(knot) if away(knot) <= options.widest + LEAST_REST => at(knot),
-        Some(_) => {
-            let station = from + outward * options.widest;
-            let (segment, s) = curve.locate(station);
-            Seam::Place { station, segment, s }
+        // How the curve ends is not what was drawn over: it stays if that leaves something.
+        Some(knot) if is_end(knot) && away(knot) > options.widening + LEAST_REST => {
+            cut(options.widest.min(away(knot) - LEAST_REST))
         }
+        Some(knot) if away(knot) <= options.widest + LEAST_REST => at(knot),
+        Some(_) => cut(options.widest),
     }
 }

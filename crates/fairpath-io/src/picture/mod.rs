@@ -5,11 +5,13 @@
 
 mod drawing;
 mod lettering;
+mod oversketch;
 mod page;
 mod sheet;
 mod stages;
 
 pub use drawing::draw_splines;
+pub use oversketch::{Correction, draw_corrections};
 pub use page::Picture;
 pub use stages::{StagePicture, draw_stages};
 

@@ -19,6 +19,8 @@ pub(crate) mod colour {
     pub(crate) const LABEL: &str = "#4a505a";
     pub(crate) const FAINT: &str = "#8b919b";
     pub(crate) const RULE: &str = "#eceef1";
+    pub(crate) const REPLACED: &str = "#f08a24";
+    pub(crate) const WIDENED: &str = "#fbd9b0";
     pub(crate) const FAILED: &str = "#b3261e";
 }
 
