@@ -16,6 +16,8 @@ pub(super) struct Integrated {
     pub(super) line: Polyline,
     /// Arc lengths at which the sketch leaves the old curve and joins it again.
     pub(super) sketch: [f64; 2],
+    /// How far the sketch departs from the old curve, px.
+    pub(super) departure: f64,
     /// Arc lengths of the corners of the old curve among these points.
     pub(super) corners: Vec<f64>,
 }
@@ -60,8 +62,9 @@ pub(super) fn integrated(curve: &Spline, sketch: &[Vec2], replaced: &Replaced, [
     course.follow(curve, replaced.to, end);
     let line = Polyline::new(course.points);
     let corners = course.corners.into_iter().map(|i| line.s[i]).collect();
+    let departure = sketch.iter().map(|p| curve.nearest(p.to_point()).distance).fold(0.0, f64::max);
     let sketch = [line.s[first], line.s[last]];
-    Integrated { line, sketch, corners }
+    Integrated { line, sketch, departure, corners }
 }
 
 /// A polyline as it grows, and which of its points are corners of the old curve.

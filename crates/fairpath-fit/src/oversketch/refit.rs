@@ -20,6 +20,12 @@ const SEAM_ZONE: f64 = 14.0;
 
 /// Length over which points near there get back their full weight, px.
 const FADE: f64 = 15.0;
+const FADE_SHARE: f64 = 0.2;
+
+/// Deviation that is allowed, and that costs nothing, as shares of how far the stroke departs from the old curve; the former at least so much, px.
+const TOLERATED: f64 = 0.35;
+const FREE: f64 = 0.12;
+const LEAST_TOLERANCE: f64 = 1.5;
 
 /// What came of a fit.
 pub(super) struct Refit {
@@ -43,30 +49,38 @@ pub(super) fn fit_between(
     let bends = bends(course, &seams, false, cleaned.grain, options);
     let near = |s: f64, reach: f64| seams.iter().any(|t| (s - t).abs() <= reach);
     let is_tight = |s: f64| near(s, options.widening);
+    let fade = FADE.min(FADE_SHARE * (course.sketch[1] - course.sketch[0]));
     let worth = |s: f64| {
         let away = seams.iter().map(|t| (s - t).abs()).fold(f64::INFINITY, f64::min);
-        options.seam_worth + (1.0 - options.seam_worth) * (away / FADE).min(1.0)
+        options.seam_worth + (1.0 - options.seam_worth) * (away / fade).min(1.0)
     };
     let track = |options: &FitOptions, closest: f64| {
         between(&course.line, &bends, held, (closest, &is_tight), &worth, cleaned.grain, options)
     };
-    best(&course.line, |o| track(o, options.seam_sampling), cleaned, options)
+    best(&course.line, |o| track(o, options.seam_sampling), course.departure, cleaned, options)
 }
 
 /// Fits a course that closes on itself.
 pub(super) fn fit_around(course: &Integrated, cleaned: &Cleaned, options: &OversketchOptions) -> Option<Refit> {
     let bends = bends(course, &course.sketch, true, cleaned.grain, options);
-    best(&course.line, |o| around(&course.line, &bends, cleaned.grain, o), cleaned, options)
+    best(&course.line, |o| around(&course.line, &bends, cleaned.grain, o), course.departure, cleaned, options)
 }
 
 /// The nearest of several attempts: as the options say, closer to the stroke if that strays, looser if there is no curve.
 fn best(
     line: &Polyline,
     track: impl Fn(&FitOptions) -> Track,
+    departure: f64,
     cleaned: &Cleaned,
     options: &OversketchOptions,
 ) -> Option<Refit> {
-    let own = FitOptions { error_cost: options.error_factor * options.fit.error_cost, ..options.fit.clone() };
+    // A small correction must not be taken for tremor.
+    let own = FitOptions {
+        error_cost: options.error_factor * options.fit.error_cost,
+        max_error: options.fit.max_error.min((TOLERATED * departure).max(LEAST_TOLERANCE)),
+        free_error: options.fit.free_error.min(FREE * departure),
+        ..options.fit.clone()
+    };
     let attempt = |options: &FitOptions, loosened: bool| {
         let (parts, _) = fit_track(&track(options), cleaned, options)?;
         let astray = astray(&parts, line)?;
