@@ -264,8 +264,9 @@ impl<'a> Scene<'a> {
             3 => Continuity::G1,
             _ => Continuity::G0,
         };
-        rest.absorb(&mut new);
-        let (spline, new) = rest.with(new, holds.map(level)).ok()?;
+        let mut joins = holds.map(level);
+        rest.absorb(&mut new, &mut joins);
+        let (spline, new) = rest.with(new, joins).ok()?;
         Some(Made { spline, new, course })
     }
 

@@ -71,8 +71,9 @@ impl Rest {
         if side == 0 { (0..n).rev().map(pair).collect() } else { (0..n).map(pair).collect() }
     }
 
-    /// Gives new lines and arcs that only go on as a segment did before it was cut back to that segment.
-    pub(super) fn absorb(&mut self, new: &mut Run) {
+    /// Gives new lines and arcs that only go on as a segment did before it was cut back to that segment; `seams` are how the
+    /// new part then meets what stays.
+    pub(super) fn absorb(&mut self, new: &mut Run, seams: &mut [Continuity; 2]) {
         let goes_on = |a: &Segment, b: &Segment| a.kappa0 == a.kappa1 && b.kappa0 == b.kappa1 && a.kappa1 == b.kappa0;
         if self.is_cut[0]
             && new.segments.len() > 1
@@ -80,7 +81,7 @@ impl Rest {
             && goes_on(last, &new.segments[0])
         {
             last.length += new.segments.remove(0).length;
-            new.joins.remove(0);
+            seams[0] = new.joins.remove(0);
         }
         let after = if self.closed { &mut self.before } else { &mut self.after };
         if self.is_cut[1]
@@ -89,7 +90,7 @@ impl Rest {
             && goes_on(&next, first)
         {
             new.segments.pop();
-            new.joins.pop();
+            seams[1] = new.joins.pop().unwrap_or(seams[1]);
             *first = Segment { length: next.length + first.length, ..next };
         }
     }
