@@ -116,14 +116,7 @@ pub fn oversketch_by(
         (OversketchMode::Refit, _) => scene.refit_all(spline, fit, &mut warnings),
         (OversketchMode::LocalBlend, Refitted::Between(seams)) => scene.blend(spline, &seams, fit, &mut warnings),
         (OversketchMode::ShortestPath, Refitted::Between(seams)) => {
-            scene.refit(spline, &seams, &mut warnings).or_else(|| {
-                let blended = scene.blend(spline, &seams, None, &mut Vec::new())?;
-                warnings.push(Warning {
-                    code: "blended".into(),
-                    text: "no fair curve meets what stays on both sides; the stroke was fitted by itself and blended in".into(),
-                });
-                Some(blended)
-            })
+            scene.refit_or_blend(spline, &seams, &mut warnings)
         }
         (_, Refitted::All) => scene.refit_all(spline, None, &mut warnings),
     };
@@ -182,6 +175,14 @@ struct Made {
     course: Vec<Vec2>,
 }
 
+impl Made {
+    /// The largest distance of the points from the curve, px.
+    fn farthest(&self, cleaned: &Cleaned) -> f64 {
+        let away = |p: &Vec2| self.spline.nearest(cleaned.restore(*p)).distance / cleaned.scale;
+        self.course.iter().map(away).fold(0.0, f64::max)
+    }
+}
+
 impl<'a> Scene<'a> {
     fn new(spline: &Spline, stroke: &Stroke, options: &'a OversketchOptions) -> Result<Self, OversketchError> {
         options.validate()?;
@@ -191,7 +192,7 @@ impl<'a> Scene<'a> {
         let curve = spline.transformed(&Similarity { scale, translation, ..Similarity::IDENTITY });
         let sketch = Polyline::new(cleaned.points.clone());
         let replaced = replaced(&curve, &sketch, options)?;
-        let refitted = widened(&curve, &replaced, options);
+        let refitted = widened(&curve, &replaced, sketch.length(), options);
         Ok(Self { options, cleaned, curve, sketch, replaced, refitted })
     }
 
@@ -211,24 +212,42 @@ impl<'a> Scene<'a> {
         attached(&self.curve, &self.sketch, &self.replaced, self.options.attenuation)
     }
 
-    /// The method of section 3.7.
-    fn refit(&self, spline: &Spline, seams: &[Seam; 2], warnings: &mut Vec<Warning>) -> Option<Made> {
+    /// The method of section 3.7, how far its curve is from what was drawn if that is more than was tolerated, px, and what to say about it.
+    fn refit(&self, spline: &Spline, seams: &[Seam; 2]) -> Option<(Made, Option<f64>, Option<Warning>)> {
         let course = integrated(&self.curve, &self.sketch(), &self.replaced, seams.map(|s| s.station()));
         let rest = Rest::of(spline, seams, self.cleaned.scale);
         let holds = self.holds(&rest, seams);
         // Where the sketch begins at a corner or at the curve's end, there is nothing to leave smoothly.
         let smooth = [0, 1].map(|i| (course.sketch[i] - [0.0, course.line.length()][i]).abs() > 1e-3);
-        let Refit { parts: (segments, joins, _), loosened, .. } =
+        let Refit { parts: (segments, joins, _), loosened, astray, is_astray } =
             fit_between(&course, holds, smooth, &self.cleaned, self.options)?;
         let new = Run { segments: refit::restored(&segments, &self.cleaned), joins };
         let made = self.spliced(rest, new, holds, course.line.points)?;
-        if loosened {
+        let note = loosened.then(|| Warning {
+            code: "loosened".into(),
+            text: "no curve keeps to the options everywhere; joins and deviations were allowed that they forbid".into(),
+        });
+        Some((made, is_astray.then_some(astray), note))
+    }
+
+    /// The method of section 3.7, or where that finds nothing near, the stroke blended in.
+    fn refit_or_blend(&self, spline: &Spline, seams: &[Seam; 2], warnings: &mut Vec<Warning>) -> Option<Made> {
+        let (refitted, astray, note) = match self.refit(spline, seams) {
+            Some((made, astray, note)) => (Some(made), astray, note),
+            None => (None, Some(f64::INFINITY), None),
+        };
+        if let Some(astray) = astray
+            && let Some(blended) = self.blend(spline, seams, None, &mut Vec::new())
+            && blended.farthest(&self.cleaned) < MUCH_NEARER * astray
+        {
             warnings.push(Warning {
-                code: "loosened".into(),
-                text: "no curve keeps to the options everywhere; joins and deviations were allowed that they forbid".into(),
+                code: "blended".into(),
+                text: "no fair curve near the stroke meets what stays on both sides; the stroke was fitted by itself and blended in".into(),
             });
+            return Some(blended);
         }
-        Some(made)
+        warnings.extend(note);
+        refitted
     }
 
     /// How the new part is held at its ends by what stays.
@@ -359,6 +378,9 @@ impl<'a> Scene<'a> {
         Some(fit.spline)
     }
 }
+
+/// A blend is taken for what shortest paths found if it is at most this share of its distance from what was drawn.
+const MUCH_NEARER: f64 = 0.6;
 
 /// A course around a closed curve with its first point once more at the end.
 fn closed_up(course: &Integrated) -> Integrated {

@@ -34,7 +34,7 @@ pub struct OversketchOptions {
     /// Least length of old curve that is fitted anew on each side of what the stroke replaces (section 3.7).
     #[schemars(extend("unit" = "px"))]
     pub widening: f64,
-    /// Most of that length: where the next join is further, the segment is cut.
+    /// Most of that length: where the next join is further, the segment is cut. Beside a stroke that is shorter, that length is enough.
     #[schemars(extend("unit" = "px"))]
     pub widest: f64,
     /// Length of the stroke over which the move of its end onto the curve fades (section 3.7: a small region). It is at least four times as long

@@ -23,15 +23,20 @@ const FADE: f64 = 15.0;
 const FADE_SHARE: f64 = 0.2;
 
 /// Deviation that is allowed, and that costs nothing, as shares of how far the stroke departs from the old curve; the former at least so much, px.
-const TOLERATED: f64 = 0.35;
+const TOLERATED: f64 = 0.25;
 const FREE: f64 = 0.12;
 const LEAST_TOLERANCE: f64 = 1.5;
+
+/// Share of the stroke's length below which a piece is short.
+const SHORT: f64 = 0.35;
 
 /// What came of a fit.
 pub(super) struct Refit {
     pub(super) parts: Parts,
     /// Largest distance of the stroke's points, and by how much the curve is longer than them; whichever is more, px.
     pub(super) astray: f64,
+    /// More of that than was tolerated, px.
+    pub(super) is_astray: bool,
     /// Whether joins and deviations had to be allowed that the options forbid.
     pub(super) loosened: bool,
 }
@@ -57,44 +62,45 @@ pub(super) fn fit_between(
     let track = |options: &FitOptions, closest: f64| {
         between(&course.line, &bends, held, (closest, &is_tight), &worth, cleaned.grain, options)
     };
-    best(&course.line, |o| track(o, options.seam_sampling), course.departure, cleaned, options)
+    best(|o| track(o, options.seam_sampling), course, cleaned, options)
 }
 
 /// Fits a course that closes on itself.
 pub(super) fn fit_around(course: &Integrated, cleaned: &Cleaned, options: &OversketchOptions) -> Option<Refit> {
     let bends = bends(course, &course.sketch, true, cleaned.grain, options);
-    best(&course.line, |o| around(&course.line, &bends, cleaned.grain, o), course.departure, cleaned, options)
+    best(|o| around(&course.line, &bends, cleaned.grain, o), course, cleaned, options)
 }
 
 /// The nearest of several attempts: as the options say, closer to the stroke if that strays, looser if there is no curve.
 fn best(
-    line: &Polyline,
     track: impl Fn(&FitOptions) -> Track,
-    departure: f64,
+    course: &Integrated,
     cleaned: &Cleaned,
     options: &OversketchOptions,
 ) -> Option<Refit> {
     // A small correction must not be taken for tremor.
     let own = FitOptions {
         error_cost: options.error_factor * options.fit.error_cost,
-        max_error: options.fit.max_error.min((TOLERATED * departure).max(LEAST_TOLERANCE)),
-        free_error: options.fit.free_error.min(FREE * departure),
+        max_error: options.fit.max_error.min((TOLERATED * course.departure).max(LEAST_TOLERANCE)),
+        free_error: options.fit.free_error.min(FREE * course.departure),
+        short_length: options.fit.short_length.min(SHORT * (course.sketch[1] - course.sketch[0])),
         ..options.fit.clone()
     };
+    let limit = STRAY * own.max_error;
     let attempt = |options: &FitOptions, loosened: bool| {
         let (parts, _) = fit_track(&track(options), cleaned, options)?;
-        let astray = astray(&parts, line)?;
-        Some(Refit { parts, astray, loosened })
+        let astray = astray(&parts, &course.line)?;
+        Some(Refit { parts, astray, is_astray: astray > limit, loosened })
     };
     let mut found = attempt(&own, false);
-    if found.as_ref().is_none_or(|f| f.astray > STRAY * own.max_error) {
+    if found.as_ref().is_none_or(|f| f.is_astray) {
         for (options, is_loosened) in [(closer(&own), false), (loosened(&own), true)] {
             let other = attempt(&options, is_loosened);
             let before = found.as_ref().map_or(f64::INFINITY, |f| f.astray);
             if other.as_ref().is_some_and(|o| o.astray < before) {
                 found = other;
             }
-            if found.as_ref().is_some_and(|f| f.astray <= STRAY * own.max_error) {
+            if found.as_ref().is_some_and(|f| !f.is_astray) {
                 break;
             }
         }

@@ -47,9 +47,10 @@ struct Knot {
     corner: bool,
 }
 
-/// Widens what is replaced.
-pub(super) fn widened(curve: &Spline, replaced: &Replaced, options: &OversketchOptions) -> Refitted {
+/// Widens what is replaced by a stroke of length `drawn`: beside a short one, little needs to change.
+pub(super) fn widened(curve: &Spline, replaced: &Replaced, drawn: f64, options: &OversketchOptions) -> Refitted {
     let knots = knots(curve);
+    let options = &OversketchOptions { widest: options.widest.min(drawn).max(options.widening), ..options.clone() };
     let start = if replaced.attached[0] {
         seam(curve, &knots, replaced.from, false, options)
     } else {
