@@ -20,6 +20,7 @@ mod conclude;
 mod corners;
 mod curvature_space;
 mod direction;
+mod edit;
 mod hooks;
 mod linear;
 mod options;
@@ -29,15 +30,20 @@ mod primitive_fit;
 mod resample;
 mod result;
 mod shortest_path;
+mod splice;
 mod stroke;
 mod track;
 mod walk;
 
 pub use curvature_space::{CurvatureEstimate, CurvatureSpaceOptions, Mode};
+pub use edit::{
+    Constraint, CurveEnd, EditError, Extension, close, cut, extend, interpolate, interpolate_all, join, make_corner,
+    smooth_corner,
+};
 pub use options::{ClosedSearch, Closing, Deviation, FitOptions, Preset, Resampling, Search, Transitions};
 pub use oversketch::{
-    FitBy, OversketchError, OversketchMode, OversketchOptions, OversketchRegion, Oversketched, oversketch, oversketch_by,
-    oversketch_region,
+    FitBy, OversketchError, OversketchMode, OversketchOptions, OversketchRegion, Oversketched, oversketch,
+    oversketch_by, oversketch_region,
 };
 pub use result::{Candidate, Fit, FitError, Observer, Report, Stages, Step, Warning};
 pub use stroke::Stroke;

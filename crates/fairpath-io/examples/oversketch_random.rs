@@ -3,7 +3,7 @@
 //! that came with warnings and the farthest of the others.
 
 use fairpath_curve::{Point, Spline, Vec2};
-use fairpath_fit::{FitOptions, Oversketched, OversketchOptions, Stroke, fit, oversketch, oversketch_region};
+use fairpath_fit::{FitOptions, OversketchOptions, Oversketched, Stroke, fit, oversketch, oversketch_region};
 use fairpath_io::picture::{Comb, Correction, PictureOptions, draw_corrections};
 use fairpath_io::{ReadOptions, YAxis, read_strokes, write_whole};
 use std::path::Path;
@@ -27,7 +27,8 @@ impl Lcg {
 fn over(spline: &Spline, random: &mut Lcg) -> Stroke {
     let length = spline.length();
     let span = random.between(0.08, 0.5) * length;
-    let from = if spline.is_closed() { random.between(0.0, length) } else { random.between(-0.1, 1.0) * (length - span) };
+    let from =
+        if spline.is_closed() { random.between(0.0, length) } else { random.between(-0.1, 1.0) * (length - span) };
     let height = random.between(-0.35, 0.35) * span;
     let off = Vec2::new(random.between(-6.0, 6.0), random.between(-6.0, 6.0));
     let count = (span / random.between(3.0, 9.0)).ceil().max(4.0) as usize;
@@ -51,7 +52,8 @@ fn over(spline: &Spline, random: &mut Lcg) -> Stroke {
 
 /// Segments of the result that are, to the bit, segments of the old curve.
 fn kept(old: &Spline, done: &Oversketched) -> usize {
-    let bits = |s: &fairpath_curve::Segment| [s.start.x, s.start.y, s.heading, s.length, s.kappa0, s.kappa1].map(f64::to_bits);
+    let bits =
+        |s: &fairpath_curve::Segment| [s.start.x, s.start.y, s.heading, s.length, s.kappa0, s.kappa1].map(f64::to_bits);
     let before: Vec<_> = old.segments().iter().map(bits).collect();
     let outside = done.spline.segments().iter().enumerate().filter(|(i, _)| !done.new.contains(i));
     outside.filter(|(_, s)| before.contains(&bits(s))).count()

@@ -2,7 +2,9 @@
 //! `cargo run -p fairpath-io --example oversketch_series -- docs/oversketch.svg|OUT.png`. The same bytes on every run.
 
 use fairpath_curve::{Point, Spline};
-use fairpath_fit::{FitOptions, Oversketched, OversketchError, OversketchMode, OversketchOptions, Stroke, fit, oversketch};
+use fairpath_fit::{
+    FitOptions, OversketchError, OversketchMode, OversketchOptions, Oversketched, Stroke, fit, oversketch,
+};
 use fairpath_io::picture::{Comb, Correction, PictureOptions, draw_corrections};
 use fairpath_io::{YAxis, write_whole};
 use std::error::Error;
@@ -66,14 +68,54 @@ fn cases() -> Vec<Case> {
     vec![
         ("a bend drawn deeper", wave(), changed(185.0, 320.0, -45.0), own),
         ("a small correction", wave(), changed(50.0, 125.0, 9.0), own),
-        ("a large bulge on a straight line", stroke("line", 40, |u| (400.0 * u, 0.0)), stroke("s", 40, |u| (110.0 + 180.0 * u, -85.0 * (PI * u).sin().powf(1.3))), own),
-        ("past an end", stroke("arm", 50, arm), stroke("s", 40, |u| (240.0 + 200.0 * u, 25.0 - 18.0 * u - 55.0 * (PI * u).sin() * u)), own),
-        ("over a corner, which is rounded", stroke("rect", 130, |u| along(&rect[..3], u)), stroke("s", 30, |u| (190.0 + 70.0 * (0.5 * PI * u).sin(), 80.0 - 80.0 * (0.5 * PI * u).cos())), own),
-        ("over a corner, with a new one", stroke("rect", 130, |u| along(&rect[..3], u)), stroke("s", 40, |u| along(&[(180.0, 1.0), (300.0, -30.0), (259.0, 90.0)], u)), own),
-        ("a side drawn against its direction", oval(), stroke("s", 40, |u| (115.0 - 230.0 * u, -50.0 - 70.0 * (PI * u).sin())), own),
-        ("across the start of a closed curve", oval(), stroke("s", 40, |u| (118.0 + 60.0 * (PI * u).sin(), 55.0 - 105.0 * u)), own),
-        ("between two corners of a closed curve", stroke("rect", 150, |u| along(&rect, u)), stroke("s", 40, |u| (260.0 * u, -45.0 * (PI * u).sin())), own),
-        ("a loop in a line", stroke("arm", 50, arm), stroke("s", 60, |u| (140.0 + 20.0 * u + 45.0 * (TAU * u).sin(), 38.0 - 45.0 * (1.0 - (TAU * u).cos()))), own),
+        (
+            "a large bulge on a straight line",
+            stroke("line", 40, |u| (400.0 * u, 0.0)),
+            stroke("s", 40, |u| (110.0 + 180.0 * u, -85.0 * (PI * u).sin().powf(1.3))),
+            own,
+        ),
+        (
+            "past an end",
+            stroke("arm", 50, arm),
+            stroke("s", 40, |u| (240.0 + 200.0 * u, 25.0 - 18.0 * u - 55.0 * (PI * u).sin() * u)),
+            own,
+        ),
+        (
+            "over a corner, which is rounded",
+            stroke("rect", 130, |u| along(&rect[..3], u)),
+            stroke("s", 30, |u| (190.0 + 70.0 * (0.5 * PI * u).sin(), 80.0 - 80.0 * (0.5 * PI * u).cos())),
+            own,
+        ),
+        (
+            "over a corner, with a new one",
+            stroke("rect", 130, |u| along(&rect[..3], u)),
+            stroke("s", 40, |u| along(&[(180.0, 1.0), (300.0, -30.0), (259.0, 90.0)], u)),
+            own,
+        ),
+        (
+            "a side drawn against its direction",
+            oval(),
+            stroke("s", 40, |u| (115.0 - 230.0 * u, -50.0 - 70.0 * (PI * u).sin())),
+            own,
+        ),
+        (
+            "across the start of a closed curve",
+            oval(),
+            stroke("s", 40, |u| (118.0 + 60.0 * (PI * u).sin(), 55.0 - 105.0 * u)),
+            own,
+        ),
+        (
+            "between two corners of a closed curve",
+            stroke("rect", 150, |u| along(&rect, u)),
+            stroke("s", 40, |u| (260.0 * u, -45.0 * (PI * u).sin())),
+            own,
+        ),
+        (
+            "a loop in a line",
+            stroke("arm", 50, arm),
+            stroke("s", 60, |u| (140.0 + 20.0 * u + 45.0 * (TAU * u).sin(), 38.0 - 45.0 * (1.0 - (TAU * u).cos()))),
+            own,
+        ),
         ("blended in locally", wave(), changed(185.0, 320.0, -45.0), OversketchMode::LocalBlend),
         ("fitted anew as a whole", wave(), changed(185.0, 320.0, -45.0), OversketchMode::Refit),
     ]

@@ -4,7 +4,7 @@
 //! Their blend is a quintic polynomial with position, tangent and curvature at both ends. Three clothoids meet the same six numbers, and the result
 //! is a spline of clothoids throughout.
 
-use super::splice::Run;
+use crate::splice::Run;
 use fairpath_curve::{Continuity, Pose, Segment, Spline, hermite_g2};
 
 /// Lengths of the stroke that a blend may take up, px, and the largest share of it.

@@ -7,7 +7,6 @@ mod integrate;
 mod options;
 mod refit;
 mod region;
-mod splice;
 mod widen;
 
 pub use error::OversketchError;
@@ -21,12 +20,12 @@ use crate::result::{Fit, FitError, Report, Warning};
 use crate::shortest_path::STRAY;
 use crate::shortest_path::chain::Pin;
 use crate::shortest_path::hold::Hold;
+use crate::splice::{Rest, Run};
 use crate::stroke::Stroke;
 use fairpath_curve::{Continuity, Point, Pose, Segment, Similarity, Spline, Vec2};
 use integrate::{Integrated, attached, integrated};
 use refit::{Refit, fit_around, fit_between};
 use region::{Replaced, replaced};
-use splice::{Rest, Run};
 use std::ops::Range;
 use widen::{Refitted, Seam, widened};
 
@@ -115,9 +114,7 @@ pub fn oversketch_by(
     let result = match (options.mode, scene.refitted) {
         (OversketchMode::Refit, _) => scene.refit_all(spline, fit, &mut warnings),
         (OversketchMode::LocalBlend, Refitted::Between(seams)) => scene.blend(spline, &seams, fit, &mut warnings),
-        (OversketchMode::ShortestPath, Refitted::Between(seams)) => {
-            scene.refit_or_blend(spline, &seams, &mut warnings)
-        }
+        (OversketchMode::ShortestPath, Refitted::Between(seams)) => scene.refit_or_blend(spline, &seams, &mut warnings),
         (_, Refitted::All) => scene.refit_all(spline, None, &mut warnings),
     };
     let Some(Made { spline: made, new, course }) = result else {
@@ -215,7 +212,7 @@ impl<'a> Scene<'a> {
     /// The method of section 3.7, how far its curve is from what was drawn if that is more than was tolerated, px, and what to say about it.
     fn refit(&self, spline: &Spline, seams: &[Seam; 2]) -> Option<(Made, Option<f64>, Option<Warning>)> {
         let course = integrated(&self.curve, &self.sketch(), &self.replaced, seams.map(|s| s.station()));
-        let rest = Rest::of(spline, seams, self.cleaned.scale);
+        let rest = Rest::of(spline, seams.map(|s| s.place(self.cleaned.scale)));
         let holds = self.holds(&rest, seams);
         // Where the sketch begins at a corner or at the curve's end, there is nothing to leave smoothly.
         let smooth = [0, 1].map(|i| (course.sketch[i] - [0.0, course.line.length()][i]).abs() > 1e-3);
@@ -298,7 +295,7 @@ impl<'a> Scene<'a> {
         warnings: &mut Vec<Warning>,
     ) -> Option<Made> {
         let sketch = self.sketch();
-        let rest = Rest::of(spline, seams, self.cleaned.scale);
+        let rest = Rest::of(spline, seams.map(|s| s.place(self.cleaned.scale)));
         let holds = self.holds(&rest, seams);
         let own = self.fitted(&sketch, Closing::No, fit, warnings)?;
         let inner = [self.replaced.from, self.replaced.to];
@@ -309,18 +306,26 @@ impl<'a> Scene<'a> {
             let at_once = (inner[side] - seams[side].station()).abs() < 1e-6;
             let stroke = own.pose_at([0.0, own.length()][side]);
             Some(match (hold.pin.count, at_once, rest.neighbours()[side]) {
-                (4, _, Some(segment)) => if side == 0 { segment.end_pose() } else { segment.start_pose() },
+                (4, _, Some(segment)) => {
+                    if side == 0 {
+                        segment.end_pose()
+                    } else {
+                        segment.start_pose()
+                    }
+                }
                 (_, true, _) => Pose { point: place.point, ..stroke },
                 _ => self.inner_pose(seams[side].station(), side),
             })
         });
         let new = blend::blended(&own, poses)?;
         let course = integrated(&self.curve, &sketch, &self.replaced, seams.map(|s| s.station())).line.points;
-        let smoothly = [0, 1].map(|side| holds[side].map(|mut hold| {
-            // What is no G2 seam is met in position only.
-            hold.pin.count = if hold.pin.count == 4 { 4 } else { 2 };
-            hold
-        }));
+        let smoothly = [0, 1].map(|side| {
+            holds[side].map(|mut hold| {
+                // What is no G2 seam is met in position only.
+                hold.pin.count = if hold.pin.count == 4 { 4 } else { 2 };
+                hold
+            })
+        });
         self.spliced(rest, new, smoothly, course)
     }
 

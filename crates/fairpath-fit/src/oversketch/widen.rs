@@ -3,6 +3,7 @@
 
 use super::options::OversketchOptions;
 use super::region::{Replaced, corners};
+use crate::splice::Place;
 use fairpath_curve::Spline;
 
 /// An end of what is fitted anew.
@@ -21,6 +22,14 @@ impl Seam {
     pub(super) fn station(&self) -> f64 {
         match *self {
             Self::CurveEnd { station } | Self::StrokeEnd { station } | Self::Place { station, .. } => station,
+        }
+    }
+
+    /// Where that is in the curve in its own unit, of which a px is `scale`; nothing where the curve ends.
+    pub(super) fn place(&self, scale: f64) -> Option<Place> {
+        match *self {
+            Self::Place { segment, s, .. } => Some(Place { segment, s: s * scale }),
+            _ => None,
         }
     }
 }
@@ -67,12 +76,12 @@ pub(super) fn widened(curve: &Spline, replaced: &Replaced, drawn: f64, options: 
     Refitted::Between([start, end])
 }
 
-/// The knots of a curve; those of a closed one through three turns, so that one may look past its start.
+/// The knots of a curve; those of a closed one through four turns, so that one may look past its start.
 fn knots(curve: &Spline) -> Vec<Knot> {
     let length = curve.length();
     let sharp: Vec<usize> = corners(curve).map(|(_, join)| join).collect();
     let n = curve.segments().len();
-    let turns = if curve.is_closed() { -1..2 } else { 0..1 };
+    let turns = if curve.is_closed() { -1..3 } else { 0..1 };
     let mut out = Vec::new();
     for turn in turns {
         let mut station = f64::from(turn) * length;
@@ -110,6 +119,12 @@ fn seam(curve: &Spline, knots: &[Knot], from: f64, ahead: bool, options: &Oversk
     let cut = |away: f64| {
         let station = from + outward * away;
         let (segment, s) = curve.locate(station);
+        if s <= AT_JOIN {
+            return Seam::Place { station, segment, s: 0.0 };
+        }
+        if curve.segments()[segment].length - s <= AT_JOIN {
+            return Seam::Place { station, segment: (segment + 1) % last, s: 0.0 };
+        }
         Seam::Place { station, segment, s }
     };
     match corner.or(wide) {

@@ -222,7 +222,8 @@ impl<'a> Graph<'a> {
     pub(crate) fn learn_held(&mut self, node: u32, side: usize, deviation: f64) -> bool {
         self.held_verified[node as usize][side] = true;
         let node = &mut self.nodes[node as usize];
-        let expected = hold::expected(self.held[side].as_ref(), &self.candidates[node.candidate as usize], side, self.options);
+        let expected =
+            hold::expected(self.held[side].as_ref(), &self.candidates[node.candidate as usize], side, self.options);
         let dearer = !(deviation <= expected + 1e-9 * expected.abs() + 1e-9);
         if dearer {
             node.cost += deviation - expected;

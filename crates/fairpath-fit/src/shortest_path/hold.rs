@@ -4,7 +4,7 @@
 //! costs, which comes to the same.
 
 use super::candidates::Candidate;
-use super::chain::{Chain, KAPPA0, KAPPA1, LENGTH, Pin, Piece, end};
+use super::chain::{Chain, KAPPA0, KAPPA1, LENGTH, Piece, Pin, end};
 use super::transition::estimate_held;
 use crate::options::FitOptions;
 use crate::track::Track;

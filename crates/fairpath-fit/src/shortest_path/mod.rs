@@ -34,10 +34,7 @@ const FINAL: Effort = Effort { rounds: 14, tolerance: 1e-3 };
 
 /// A curve in pixels along a prepared track, and its cost; nothing where the options allow none.
 pub(crate) fn fit_track(track: &Track, cleaned: &Cleaned, options: &FitOptions) -> Option<(Parts, Report)> {
-    let mut report = Report {
-        samples: track.turn + usize::from(track.shape == Shape::Open),
-        ..Report::default()
-    };
+    let mut report = Report { samples: track.turn + usize::from(track.shape == Shape::Open), ..Report::default() };
     let length = track.all.station(track.turn);
     let options = &FitOptions { free_error: options.free_error.min(options.free_share * length), ..options.clone() };
     attempt(track, cleaned, options, &mut (), &mut report, None).map(|parts| (parts, report))

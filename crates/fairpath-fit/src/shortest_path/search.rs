@@ -206,14 +206,7 @@ fn verify(graph: &Graph, edge: Edge, track: &Track, options: &FitOptions) -> f64
 }
 
 /// As [`verify`], of a candidate and what the end of the stroke is held by.
-fn verify_held(
-    graph: &Graph,
-    node: u32,
-    side: usize,
-    hold: &Hold,
-    track: &Track,
-    options: &FitOptions,
-) -> f64 {
+fn verify_held(graph: &Graph, node: u32, side: usize, hold: &Hold, track: &Track, options: &FitOptions) -> f64 {
     let node = graph.nodes[node as usize];
     let before = graph.candidates[node.candidate as usize].penalty;
     let mut held = [None; 2];

@@ -1,24 +1,23 @@
 //! The old curve with a new part in it: what stays keeps the bits that it has.
 
-use super::widen::Seam;
 use fairpath_curve::{Continuity, Segment, Spline, SplineError};
 use std::ops::Range;
 
 /// Segments in order of travel with the joins between them.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Run {
-    pub(super) segments: Vec<Segment>,
-    pub(super) joins: Vec<Continuity>,
+pub(crate) struct Run {
+    pub(crate) segments: Vec<Segment>,
+    pub(crate) joins: Vec<Continuity>,
 }
 
 /// What stays of a curve on both sides of what is fitted anew. On a closed curve both sides are one run, from the second seam to the first.
 #[derive(Clone, Debug)]
-pub(super) struct Rest {
+pub(crate) struct Rest {
     /// Up to the first seam and from the second on; empty where the new part reaches the curve's end.
-    pub(super) before: Run,
-    pub(super) after: Run,
+    pub(crate) before: Run,
+    pub(crate) after: Run,
     /// How the old curve runs on at the seams.
-    pub(super) joins: [Continuity; 2],
+    pub(crate) joins: [Continuity; 2],
     /// Whether a segment was cut there.
     is_cut: [bool; 2],
     closed: bool,
@@ -26,23 +25,18 @@ pub(super) struct Rest {
     first: Option<usize>,
 }
 
-/// A place in a curve in its own unit: at arc length `s` of a segment, its start if that is zero.
-#[derive(Clone, Copy, Debug)]
-struct Place {
-    segment: usize,
-    s: f64,
+/// A place in a curve: at arc length `s` of a segment, its start if that is zero.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Place {
+    pub(crate) segment: usize,
+    pub(crate) s: f64,
 }
 
 impl Rest {
-    /// What lies outside the seams, which are in px of `scale` units. Whole segments and joins are those of `curve` to the bit. Of a segment that
-    /// is cut, the part before the cut keeps start, heading and curvature at its start, the part after it the curvature at its end; what
-    /// describes it at the cut is evaluated there.
-    pub(super) fn of(curve: &Spline, seams: &[Seam; 2], scale: f64) -> Self {
-        let place = |seam: &Seam| match *seam {
-            Seam::Place { segment, s, .. } => Some(Place { segment, s: s * scale }),
-            _ => None,
-        };
-        let [start, end] = [place(&seams[0]), place(&seams[1])];
+    /// What lies outside two seams; without one, the new part reaches the curve's end. Whole segments and joins are those of `curve` to the bit. Of
+    /// a segment that is cut, the part before the cut keeps start, heading and curvature at its start, the part after it the curvature at its end;
+    /// what describes it at the cut is evaluated there.
+    pub(crate) fn of(curve: &Spline, [start, end]: [Option<Place>; 2]) -> Self {
         let is_cut = [start, end].map(|at| at.is_some_and(|at| at.s > 0.0));
         let joins = [start, end].map(|at| at.map_or(Continuity::G0, |at| join_at(curve, at)));
         if let (true, Some(start), Some(end)) = (curve.is_closed(), start, end) {
@@ -55,13 +49,13 @@ impl Rest {
     }
 
     /// The segments that the new part meets: the one before it and the one after.
-    pub(super) fn neighbours(&self) -> [Option<&Segment>; 2] {
+    pub(crate) fn neighbours(&self) -> [Option<&Segment>; 2] {
         let after = if self.closed { &self.before } else { &self.after };
         [self.before.segments.last(), after.segments.first()]
     }
 
     /// Segments and joins outward from a seam.
-    pub(super) fn outward(&self, side: usize) -> Vec<(Segment, Option<Continuity>)> {
+    pub(crate) fn outward(&self, side: usize) -> Vec<(Segment, Option<Continuity>)> {
         let run = if side == 0 || self.closed { &self.before } else { &self.after };
         let n = run.segments.len();
         let pair = |i: usize| {
@@ -73,7 +67,7 @@ impl Rest {
 
     /// Gives new lines and arcs that only go on as a segment did before it was cut back to that segment; `seams` are how the
     /// new part then meets what stays.
-    pub(super) fn absorb(&mut self, new: &mut Run, seams: &mut [Continuity; 2]) {
+    pub(crate) fn absorb(&mut self, new: &mut Run, seams: &mut [Continuity; 2]) {
         let goes_on = |a: &Segment, b: &Segment| a.kappa0 == a.kappa1 && b.kappa0 == b.kappa1 && a.kappa1 == b.kappa0;
         if self.is_cut[0]
             && new.segments.len() > 1
@@ -99,7 +93,7 @@ impl Rest {
     ///
     /// # Errors
     /// When the new part does not meet what stays.
-    pub(super) fn with(self, new: Run, seams: [Continuity; 2]) -> Result<(Spline, Range<usize>), SplineError> {
+    pub(crate) fn with(self, new: Run, seams: [Continuity; 2]) -> Result<(Spline, Range<usize>), SplineError> {
         let count = new.segments.len();
         let mut all = self.before;
         let mut begin = all.segments.len();
@@ -156,10 +150,10 @@ fn up_to(curve: &Spline, at: Place) -> Run {
 
 fn from(curve: &Spline, at: Place) -> Run {
     let mut segments = curve.segments()[at.segment..].to_vec();
-    if at.s > 0.0 {
-        segments[0] = tail(&segments[0], at.s);
+    if let (Some(first), true) = (segments.first_mut(), at.s > 0.0) {
+        *first = tail(first, at.s);
     }
-    Run { segments, joins: curve.joins()[at.segment..].to_vec() }
+    Run { segments, joins: curve.joins().get(at.segment..).unwrap_or_default().to_vec() }
 }
 
 /// The run of a closed curve from one place around to another, and where in it the curve's first segment begins, if it does.
