@@ -7,10 +7,11 @@
 //! | read splines (JSON, our SVG, CSV) | [`read_splines`], [`read_splines_from`] |
 //! | write splines (JSON, SVG, CSV, DXF, PNG) | [`write_splines`], [`encode_splines`] |
 //! | convert | the two above, one after the other |
+//! | read edits of splines (JSON) | [`read_edits`] |
 //! | draw splines, a contact sheet, the steps of a fit | [`picture`] |
 //! | write any file whole or not at all | [`write_whole`] |
 //! | bound what a hostile file may cost | [`Limits`] in [`ReadOptions`] |
-//! | JSON schemas of the formats | [`strokes_schema`], [`spline_schema`] |
+//! | JSON schemas of the formats | [`strokes_schema`], [`spline_schema`], [`edits_schema`] |
 //!
 //! Numbers are f64 all the way and are printed so that they read back to the same bits, except in pictures and where a curve is
 //! approximated, which is always within a stated tolerance. The direction of y is a label ([`YAxis`]): nothing is flipped unasked.
@@ -35,6 +36,7 @@
 
 mod atomic;
 mod drawable;
+mod edits;
 mod error;
 mod geodetic;
 mod input;
@@ -60,9 +62,10 @@ mod unit;
 mod xml;
 
 pub use atomic::write_whole;
+pub use edits::{Edit, Through, read_edits};
 pub use error::Error;
 pub use limits::{Limits, ReadOptions};
-pub use schema::{spline_schema, strokes_schema};
+pub use schema::{edits_schema, spline_schema, strokes_schema};
 pub use spline_dxf::{DxfEntities, DxfOptions};
 pub use spline_file::{Failure, Milliseconds, SplineEntry, SplineFile, SplineReport};
 pub use splines::{

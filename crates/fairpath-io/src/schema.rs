@@ -1,5 +1,6 @@
 //! JSON schemas of our own formats, made from the types that write them.
 
+use crate::edits::EditsRecord;
 use crate::spline_json::SplinesRecord;
 use crate::strokes_json::StrokesRecord;
 use schemars::{JsonSchema, generate::SchemaSettings};
@@ -14,6 +15,12 @@ pub fn strokes_schema() -> String {
 #[must_use]
 pub fn spline_schema() -> String {
     schema::<SplinesRecord>()
+}
+
+/// The JSON schema (draft 2020-12) of `fairpath-edits 1`.
+#[must_use]
+pub fn edits_schema() -> String {
+    schema::<EditsRecord>()
 }
 
 fn schema<T: JsonSchema>() -> String {

@@ -18,7 +18,7 @@ use std::process::ExitCode;
 use clap::Parser;
 
 use crate::args::{Cli, Command};
-use crate::commands::{Ending, convert, fit};
+use crate::commands::{Ending, convert, edit, fit, oversketch};
 use crate::printer::Printer;
 
 /// Parses the arguments, does what they ask and says how it ended: 0 all done, 1 some stroke failed or `--strict`
@@ -37,6 +37,8 @@ pub fn run() -> ExitCode {
     let ending = match &cli.command {
         Command::Fit(args) => fit::run(args, &mut printer),
         Command::Convert(args) => convert::run(args, &mut printer),
+        Command::Oversketch(args) => oversketch::run(args, &mut printer),
+        Command::Edit(args) => edit::run(args, &mut printer),
     };
     match ending {
         Ok(Ending::Done) => ExitCode::SUCCESS,

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use clap::CommandFactory;
-use fairpath_fit::{CurvatureSpaceOptions, FitOptions, Preset};
+use fairpath_fit::{CurvatureSpaceOptions, FitOptions, OversketchOptions, Preset};
 use serde_json::Value;
 
 use crate::args::{Cli, preset_name};
@@ -63,6 +63,18 @@ fn parameters_page() -> String {
     for Parameter { name, unit, description, kind } in parameters::all::<CurvatureSpaceOptions>() {
         let value = parameters::show(&values[&name]);
         let _ = writeln!(text, "| `{name}` | {} | {} | {value} | {} |", cell(&unit), cell(&kind), cell(&description));
+    }
+    text.push_str(
+        "\n## With `fairpath oversketch`\n\nBeside those of the method of shortest paths above. Sections are those of Baran, Lehtinen and \
+         Popović (2010).\n\n| parameter | unit | kind | default | meaning |\n| --- | --- | --- | ---: | --- |\n",
+    );
+    let values = serde_json::to_value(OversketchOptions::default()).unwrap_or(Value::Null);
+    for Parameter { name, unit, description, kind } in parameters::all::<OversketchOptions>() {
+        if name != "fit" {
+            let value = parameters::show(&values[&name]);
+            let _ =
+                writeln!(text, "| `{name}` | {} | {} | {value} | {} |", cell(&unit), cell(&kind), cell(&description));
+        }
     }
     text
 }

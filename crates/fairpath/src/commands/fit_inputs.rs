@@ -93,7 +93,7 @@ impl Inputs {
 ///
 /// On paper that is a hundredth of an inch. Strokes in metres, kilometres and feet are maps, where it would be absurd: there one
 /// pixel is a metre, unless `--pixel-size` says better.
-fn pixel_size(file: &StrokeFile) -> f64 {
+pub(crate) fn pixel_size(file: &StrokeFile) -> f64 {
     let inch = match file.unit {
         Unit::Px => return file.dpi.map_or(1.0, |dpi| dpi / 100.0),
         Unit::Pt => 72.0,

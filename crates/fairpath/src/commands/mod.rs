@@ -1,10 +1,12 @@
 //! A module for each verb.
 
 pub(crate) mod convert;
+pub(crate) mod edit;
 pub(crate) mod fit;
 mod fit_inputs;
 mod fit_report;
 mod method_options;
+pub(crate) mod oversketch;
 
 /// How a command ended, when its arguments and inputs were usable.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,6 +1,7 @@
 //! The command line as its users see it: arguments in, files and exit codes out.
 
 mod bad_input;
+mod editing;
 mod endings;
 mod examples;
 mod pipes;
