@@ -8,8 +8,8 @@ use fairpath_curve::{Continuity, Point, Segment, Spline};
 use fairpath_fit::{Fit, FitError, Report, Warning};
 use fairpath_io::{
     Encoded, Error, Failure, Milliseconds, ReadOptions, SplineEntry, SplineFile, SplineFormat, Unit, WriteOptions,
-    YAxis, encode_splines, read_splines_from, read_strokes_from, spline_schema, strokes_schema, write_splines,
-    write_whole,
+    YAxis, edits_schema, encode_splines, read_splines_from, read_strokes_from, spline_schema, strokes_schema,
+    write_splines, write_whole,
 };
 use std::path::Path;
 
@@ -240,7 +240,12 @@ fn output_follows_links_and_keeps_permissions() {
 
 #[test]
 fn checked_in_schemas_are_those_of_the_code() {
-    for (name, schema) in [("fairpath-strokes-1", strokes_schema()), ("fairpath-spline-1", spline_schema())] {
+    let schemas = [
+        ("fairpath-strokes-1", strokes_schema()),
+        ("fairpath-spline-1", spline_schema()),
+        ("fairpath-edits-1", edits_schema()),
+    ];
+    for (name, schema) in schemas {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("schemas/{name}.schema.json"));
         if std::env::var_os("UPDATE_SCHEMAS").is_some() {
             write_whole(&path, schema.as_bytes()).unwrap();

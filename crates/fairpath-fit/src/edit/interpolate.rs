@@ -276,7 +276,10 @@ fn variation(from: &Pose, to: &Pose) -> Option<f64> {
 
 /// Steps of the search in heading, radians, and in curvature, turning over the distance to the neighbours.
 const FIRST_STEP: f64 = 0.25;
-const LAST_STEP: f64 = 2e-3;
+const LAST_STEP: f64 = 4e-3;
+
+/// A step is taken that leaves at most this share of the variation: less would not be seen.
+const WORTHWHILE: f64 = 0.999;
 
 /// All poses from the start to the end, what is free of those between chosen by a search along one coordinate after the other.
 fn fairest(start: Option<Pose>, group: &[Knot], end: Option<Pose>) -> Option<Vec<Pose>> {
@@ -292,19 +295,18 @@ fn fairest(start: Option<Pose>, group: &[Knot], end: Option<Pose>) -> Option<Vec
         let mut improved = false;
         for (k, knot) in group.iter().enumerate() {
             let i = lead + k;
+            let mut before = near(&poses, i).unwrap_or(f64::INFINITY);
             let apart = poses.windows(2).map(|p| (p[1].point - p[0].point).hypot2().sqrt()).fold(0.0, f64::max);
             for (turn, bend) in [(step, 0.0), (-step, 0.0), (0.0, step), (0.0, -step), (step, -step), (-step, step)] {
                 if (turn != 0.0 && !knot.free[0]) || (bend != 0.0 && !knot.free[1]) || !(apart > 0.0) {
                     continue;
                 }
-                let before = near(&poses, i).unwrap_or(f64::INFINITY);
                 let old = poses[i];
                 poses[i].heading += turn;
                 poses[i].curvature += bend / apart;
-                if near(&poses, i).is_some_and(|now| now < before * (1.0 - 1e-6)) {
-                    improved = true;
-                } else {
-                    poses[i] = old;
+                match near(&poses, i) {
+                    Some(now) if now < before * WORTHWHILE => (before, improved) = (now, true),
+                    _ => poses[i] = old,
                 }
             }
         }
