@@ -21,15 +21,18 @@ mod conclude;
 mod corners;
 mod curvature_space;
 mod direction;
+mod edit;
 mod french_curve;
 mod hooks;
 mod linear;
 mod options;
+mod oversketch;
 mod polyline;
 mod primitive_fit;
 mod resample;
 mod result;
 mod shortest_path;
+mod splice;
 mod stroke;
 mod stroke_options;
 mod track;
@@ -37,11 +40,19 @@ mod walk;
 
 pub use baseline::{CubicOptions, LaplacianOptions, MvcOptions};
 pub use curvature_space::{CurvatureEstimate, CurvatureSpaceOptions, Mode};
+pub use edit::{
+    Constraint, CurveEnd, EditError, Extension, close, cut, extend, interpolate, interpolate_all, join, make_corner,
+    smooth_corner,
+};
 pub use french_curve::{
     CornerSource, Flips, FrenchCurveFit, FrenchCurveOptions, Laying, PieceSearch, Template, TemplateError,
     TemplatePiece, TemplateSet,
 };
 pub use options::{ClosedSearch, Closing, Deviation, FitOptions, Preset, Resampling, Search, Transitions};
+pub use oversketch::{
+    FitBy, OversketchError, OversketchMode, OversketchOptions, OversketchRegion, Oversketched, oversketch,
+    oversketch_by, oversketch_region,
+};
 pub use result::{Candidate, Fit, FitError, Observer, Report, Stages, Step, Warning};
 pub use stroke::Stroke;
 pub use stroke_options::StrokeOptions;

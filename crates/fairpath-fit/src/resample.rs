@@ -99,16 +99,33 @@ pub(crate) fn rate(line: &Polyline, grain: f64, options: &FitOptions) -> Rate {
         let wanted = std::f64::consts::TAU / (options.points_per_circle * curvature.max(1e-9));
         at_vertex.push(wanted.clamp(options.min_sampling, options.max_sampling));
     }
-    for i in 1..n {
-        at_vertex[i] = at_vertex[i].min(at_vertex[i - 1] + options.sampling_falloff * (line.s[i] - line.s[i - 1]));
-    }
-    for i in (1..n).rev() {
-        at_vertex[i - 1] = at_vertex[i - 1].min(at_vertex[i] + options.sampling_falloff * (line.s[i] - line.s[i - 1]));
-    }
-    Rate { at_vertex, falloff: options.sampling_falloff, low: options.min_sampling }
+    let mut rate = Rate { at_vertex, falloff: options.sampling_falloff, low: options.min_sampling };
+    rate.fall_off(line);
+    rate
 }
 
 impl Rate {
+    /// Makes the rate change along the line no faster than it may.
+    fn fall_off(&mut self, line: &Polyline) {
+        let (at, n) = (&mut self.at_vertex, line.s.len());
+        for i in 1..n {
+            at[i] = at[i].min(at[i - 1] + self.falloff * (line.s[i] - line.s[i - 1]));
+        }
+        for i in (1..n).rev() {
+            at[i - 1] = at[i - 1].min(at[i] + self.falloff * (line.s[i] - line.s[i - 1]));
+        }
+    }
+
+    /// Brings samples as near as `closest` to each other where `is_tight` says so of an arc length, px.
+    pub(crate) fn tighten(&mut self, line: &Polyline, closest: f64, is_tight: &dyn Fn(f64) -> bool) {
+        for (at, &s) in self.at_vertex.iter_mut().zip(&line.s) {
+            if is_tight(s) {
+                *at = at.min(closest.max(self.low));
+            }
+        }
+        self.fall_off(line);
+    }
+
     /// The rate at arc length `s` on the edge from vertex `edge`.
     fn at(&self, line: &Polyline, edge: usize, s: f64) -> f64 {
         let a = self.at_vertex[edge] + self.falloff * (s - line.s[edge]).abs();

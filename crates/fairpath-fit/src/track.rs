@@ -6,7 +6,8 @@ use crate::corners::corners;
 use crate::hooks::unhooked;
 use crate::options::FitOptions;
 use crate::polyline::Polyline;
-use crate::resample::{rate, resample};
+use crate::resample::{Rate, rate, resample};
+use crate::shortest_path::hold::Hold;
 use crate::walk::Datum;
 use fairpath_curve::Vec2;
 
@@ -24,6 +25,8 @@ pub(crate) struct Track {
     pub(crate) shape: Shape,
     /// Points that closing cut off.
     pub(crate) trimmed: usize,
+    /// How the curve is held at the ends of an open track, because it goes on there in segments that stay.
+    pub(crate) held: [Option<Hold>; 2],
 }
 
 /// Points along a track.
@@ -89,18 +92,41 @@ pub(crate) fn prepare(cleaned: &Cleaned, options: &FitOptions) -> Track {
     let Some(closed) = close(&cleaned.points, options) else {
         let line = Polyline::new(unhooked(&cleaned.points, options.max_error).to_vec());
         let bends = corners(&line, false, cleaned.grain, options);
-        return assemble(&line, Shape::Open, &bends, cleaned.grain, options, 0);
+        let rate = rate(&line, cleaned.grain, options);
+        return assemble(&line, Shape::Open, &bends, &rate, &|_| 1.0, options);
     };
     let mut points = closed.points;
     points.push(points[0]);
     let line = Polyline::new(points);
     let bends = corners(&line, true, cleaned.grain, options);
+    Track { trimmed: closed.trimmed, ..around(&line, &bends, cleaned.grain, options) }
+}
+
+/// A closed track along a line that ends where it began, with known corners.
+pub(crate) fn around(line: &Polyline, bends: &[f64], grain: f64, options: &FitOptions) -> Track {
     let Some(&seam) = bends.first() else {
-        return assemble(&line, Shape::Ring, &[], cleaned.grain, options, closed.trimmed);
+        return assemble(line, Shape::Ring, &[], &rate(line, grain, options), &|_| 1.0, options);
     };
     // A closed stroke with corners is an open one whose ends meet at one of them.
     let bends: Vec<f64> = bends[1..].iter().map(|s| s - seam).collect();
-    assemble(&rotated(&line, seam), Shape::Loop, &bends, cleaned.grain, options, closed.trimmed)
+    let line = rotated(line, seam);
+    assemble(&line, Shape::Loop, &bends, &rate(&line, grain, options), &|_| 1.0, options)
+}
+
+/// An open track with known corners whose ends are held. Its samples are `closest` to each other where `is_tight` says so, px, and its points
+/// count `worth` times, both by arc length.
+pub(crate) fn between(
+    line: &Polyline,
+    bends: &[f64],
+    held: [Option<Hold>; 2],
+    (closest, is_tight): (f64, &dyn Fn(f64) -> bool),
+    worth: &dyn Fn(f64) -> f64,
+    grain: f64,
+    options: &FitOptions,
+) -> Track {
+    let mut rate = rate(line, grain, options);
+    rate.tighten(line, closest, is_tight);
+    Track { held, ..assemble(line, Shape::Open, bends, &rate, worth, options) }
 }
 
 /// How a stroke's ends relate.
@@ -127,8 +153,14 @@ fn rotated(line: &Polyline, s: f64) -> Polyline {
     Polyline::new(points)
 }
 
-fn assemble(line: &Polyline, shape: Shape, bends: &[f64], grain: f64, options: &FitOptions, trimmed: usize) -> Track {
-    let rate = rate(line, grain, options);
+fn assemble(
+    line: &Polyline,
+    shape: Shape,
+    bends: &[f64],
+    rate: &Rate,
+    worth: &dyn Fn(f64) -> f64,
+    options: &FitOptions,
+) -> Track {
     let length = line.length();
     let mut stops = vec![0.0];
     stops.extend(bends.iter().copied().filter(|&s| s > 1e-6 && s < length - 1e-6));
@@ -136,7 +168,7 @@ fn assemble(line: &Polyline, shape: Shape, bends: &[f64], grain: f64, options: &
     let mut sample_s: Vec<f64> = vec![0.0];
     let mut corner = vec![false];
     for pair in stops.windows(2) {
-        let part = resample(line, &rate, pair[0], pair[1], options);
+        let part = resample(line, rate, pair[0], pair[1], options);
         sample_s.extend_from_slice(&part[1..]);
         corner.resize(sample_s.len() - 1, false);
         corner.push(true);
@@ -167,6 +199,9 @@ fn assemble(line: &Polyline, shape: Shape, bends: &[f64], grain: f64, options: &
         samples.push(data.len());
         data.push(Datum { point: line.at(s, &mut hint), s, weight });
     }
+    for datum in &mut data {
+        datum.weight *= worth(datum.s);
+    }
     let all = Course { data, samples };
     let coarse = all.thinned();
     let (all, coarse) = if shape == Shape::Ring {
@@ -175,7 +210,7 @@ fn assemble(line: &Polyline, shape: Shape, bends: &[f64], grain: f64, options: &
     } else {
         (all, coarse)
     };
-    Track { all, coarse, corner, turn, shape, trimmed }
+    Track { all, coarse, corner, turn, shape, trimmed: 0, held: [None; 2] }
 }
 
 /// Turns through which a ring is unrolled: two neighbours may together cover more than two.

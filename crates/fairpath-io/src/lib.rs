@@ -10,11 +10,12 @@
 //! | the sets of French curves that come along | [`shipped_templates`] |
 //! | draw splines, a contact sheet, the steps of a fit, French curves and their pieces | [`picture`] |
 //! | compare methods on the same strokes, as a page of HTML | [`Comparison`] |
+//! | read edits of splines (JSON) | [`read_edits`] |
 //! | write surfaces (glTF, OBJ, PNG) | [`write_surfaces`], [`encode_surfaces`] |
 //! | convert | read splines and write them |
 //! | write any file whole or not at all | [`write_whole`] |
 //! | bound what a hostile file may cost | [`Limits`] in [`ReadOptions`] |
-//! | JSON schemas of the formats | [`strokes_schema`], [`spline_schema`], [`templates_schema`] |
+//! | JSON schemas of the formats | [`strokes_schema`], [`spline_schema`], [`templates_schema`], [`edits_schema`] |
 //!
 //! Numbers are f64 all the way and are printed so that they read back to the same bits, except in pictures and where a curve is
 //! approximated, which is always within a stated tolerance. The direction of y is a label ([`YAxis`]): nothing is flipped unasked.
@@ -41,6 +42,7 @@ mod atomic;
 mod comparison;
 mod drawable;
 mod drawn_spline;
+mod edits;
 mod error;
 mod geodetic;
 mod input;
@@ -72,9 +74,10 @@ mod xml;
 
 pub use atomic::write_whole;
 pub use comparison::{ComparedMethod, Comparison, MethodSummary};
+pub use edits::{Edit, Through, read_edits};
 pub use error::Error;
 pub use limits::{Limits, ReadOptions};
-pub use schema::{spline_schema, strokes_schema, templates_schema};
+pub use schema::{edits_schema, spline_schema, strokes_schema, templates_schema};
 pub use spline_dxf::{DxfEntities, DxfOptions};
 pub use spline_file::{Failure, Milliseconds, SplineEntry, SplineFile, SplineReport, UsedPiece, UsedTemplates};
 pub use splines::{

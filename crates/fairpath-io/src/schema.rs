@@ -1,5 +1,6 @@
 //! JSON schemas of our own formats, made from the types that write them.
 
+use crate::edits::EditsRecord;
 use crate::spline_json::SplinesRecord;
 use crate::strokes_json::StrokesRecord;
 use crate::templates_json::TemplatesRecord;
@@ -21,6 +22,12 @@ pub fn spline_schema() -> String {
 #[must_use]
 pub fn templates_schema() -> String {
     schema::<TemplatesRecord>()
+}
+
+/// The JSON schema (draft 2020-12) of `fairpath-edits 1`.
+#[must_use]
+pub fn edits_schema() -> String {
+    schema::<EditsRecord>()
 }
 
 fn schema<T: JsonSchema>() -> String {

@@ -8,8 +8,8 @@ use fairpath_curve::{Continuity, Point, Segment, Similarity, Spline, Vec2};
 use fairpath_fit::{Fit, FitError, Report, Warning};
 use fairpath_io::{
     Encoded, Error, Failure, Milliseconds, ReadOptions, SplineEntry, SplineFile, SplineFormat, Unit, UsedPiece,
-    UsedTemplates, WriteOptions, YAxis, encode_splines, read_splines_from, read_strokes_from, spline_schema,
-    strokes_schema, templates_schema, write_splines, write_whole,
+    UsedTemplates, WriteOptions, YAxis, edits_schema, encode_splines, read_splines_from, read_strokes_from,
+    spline_schema, strokes_schema, templates_schema, write_splines, write_whole,
 };
 use std::path::Path;
 
@@ -257,6 +257,7 @@ fn checked_in_schemas_are_those_of_the_code() {
     for (name, schema) in [
         ("fairpath-strokes-1", strokes_schema()),
         ("fairpath-spline-1", spline_schema()),
+        ("fairpath-edits-1", edits_schema()),
         ("fairpath-templates-1", templates_schema()),
     ] {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("schemas/{name}.schema.json"));

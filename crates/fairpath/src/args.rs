@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand, ValueEnum};
-use fairpath_fit::{Closing, Preset};
+use fairpath_fit::{Closing, OversketchMode, Preset};
 
 /// From a rough stroke to a fair curve of lines, arcs and clothoids.
 #[derive(Parser, Debug)]
@@ -32,6 +32,10 @@ pub enum Command {
     Convert(ConvertArgs),
     /// List, author or draw sets of French curves
     Templates(TemplatesArgs),
+    /// Correct curves by strokes drawn over them
+    Oversketch(OversketchArgs),
+    /// Extend, cut, join and close curves, move their points, smooth and make corners
+    Edit(EditArgs),
 }
 
 /// Arguments of `fairpath fit`.
@@ -246,6 +250,82 @@ pub struct TemplatesArgs {
     pub comb: bool,
 }
 
+/// Arguments of `fairpath oversketch`.
+#[derive(Args, Debug)]
+#[command(after_help = EXIT_CODES)]
+pub struct OversketchArgs {
+    /// The curves: JSON (fairpath-spline 1), or SVG or CSV as written by fairpath; `-` is standard input
+    #[arg(value_name = "SPLINE")]
+    pub splines: PathBuf,
+
+    /// The strokes drawn over them, in any format that `fairpath fit` reads; they are applied in order
+    #[arg(value_name = "STROKE")]
+    pub strokes: PathBuf,
+
+    /// Where all curves go, in the format of the extension: json, svg, dxf, csv or png; `-` is standard output
+    #[arg(short, long, value_name = "FILE")]
+    pub output: PathBuf,
+
+    /// Format of the output, where the extension does not say it
+    #[arg(long, value_name = "FORMAT")]
+    pub format: Option<OutputFormat>,
+
+    /// Write DXF with the y axis turned up where the strokes have it down, so that the drawing looks as drawn
+    #[arg(long)]
+    pub flip_y: bool,
+
+    /// The curve that is meant; without it, each stroke corrects the one that it lies on
+    #[arg(long, value_name = "NAME")]
+    pub spline: Option<String>,
+
+    /// `shortest-path`: what is replaced and a little beside it is fitted anew (Baran, Lehtinen and Popović 2010); `refit`: the whole
+    /// curve is; `local-blend`: the stroke is fitted by itself and blended in (both McCrae and Singh 2008)
+    #[arg(long, value_name = "MODE", default_value = "shortest-path", value_parser = oversketch_mode())]
+    pub mode: OversketchMode,
+
+    /// The set of parameters to start from
+    #[arg(long, value_name = "PRESET", default_value = "default", value_parser = preset())]
+    pub preset: Preset,
+
+    /// Change a parameter of oversketching or of fitting; may be given many times. `docs/parameters.md` lists them all
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    pub set: Vec<String>,
+
+    /// Size of one pixel of a 100 dpi screen, in the strokes' unit: all lengths among the parameters are multiplied by
+    /// it. By default it comes from the strokes' unit and dpi
+    #[arg(long, value_name = "S")]
+    pub pixel_size: Option<f64>,
+
+    /// Also draw a picture (svg or png) with a row for each stroke: what it replaces, the integrated stroke, the result
+    #[arg(long, value_name = "FILE")]
+    pub picture: Option<PathBuf>,
+}
+
+/// Arguments of `fairpath edit`.
+#[derive(Args, Debug)]
+#[command(after_help = EXIT_CODES)]
+pub struct EditArgs {
+    /// The curves: JSON (fairpath-spline 1), or SVG or CSV as written by fairpath; `-` is standard input
+    #[arg(value_name = "SPLINE")]
+    pub splines: PathBuf,
+
+    /// What to do: JSON (fairpath-edits 1), in order
+    #[arg(value_name = "EDITS")]
+    pub edits: PathBuf,
+
+    /// Where all curves go, in the format of the extension: json, svg, dxf, csv or png; `-` is standard output
+    #[arg(short, long, value_name = "FILE")]
+    pub output: PathBuf,
+
+    /// Format of the output, where the extension does not say it
+    #[arg(long, value_name = "FORMAT")]
+    pub format: Option<OutputFormat>,
+
+    /// Write DXF with the y axis turned up where the strokes have it down, so that the drawing looks as drawn
+    #[arg(long)]
+    pub flip_y: bool,
+}
+
 /// The formats that curves are written in.
 #[derive(ValueEnum, Clone, Copy, Debug, PartialEq, Eq)]
 pub enum OutputFormat {
@@ -321,6 +401,14 @@ pub fn preset_name(preset: Preset) -> &'static str {
 fn preset() -> impl TypedValueParser<Value = Preset> {
     PossibleValuesParser::new(Preset::ALL.map(preset_name)).try_map(|text| {
         Preset::ALL.into_iter().find(|&preset| preset_name(preset) == text).ok_or("no preset of that name")
+    })
+}
+
+fn oversketch_mode() -> impl TypedValueParser<Value = OversketchMode> {
+    PossibleValuesParser::new(["shortest-path", "refit", "local-blend"]).map(|text| match text.as_str() {
+        "refit" => OversketchMode::Refit,
+        "local-blend" => OversketchMode::LocalBlend,
+        _ => OversketchMode::ShortestPath,
     })
 }
 

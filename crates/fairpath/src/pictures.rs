@@ -3,7 +3,9 @@
 use anyhow::Result;
 use fairpath_curve::Spline;
 use fairpath_fit::{Stages, Stroke, TemplateSet, Warning};
-use fairpath_io::picture::{Comb, Layout, PictureOptions, draw_pieces, draw_splines, draw_stages};
+use fairpath_io::picture::{
+    Comb, Correction, Layout, PictureOptions, draw_corrections, draw_pieces, draw_splines, draw_stages,
+};
 use fairpath_io::{Encoded, SplineFile, SplineFormat, StrokeFile, WriteOptions, YAxis, encode_splines};
 
 use crate::args::OutputFormat;
@@ -59,6 +61,17 @@ pub(crate) fn with_templates(
     png: bool,
 ) -> Result<Vec<u8>> {
     let picture = draw_pieces(file, Some(strokes), templates, &PictureOptions::default());
+    Ok(if png { picture.to_png()? } else { picture.to_svg().as_bytes().to_vec() })
+}
+
+/// A picture with a row for each correction, as SVG or PNG.
+///
+/// # Errors
+/// When there is no room for the picture's pixels.
+pub(crate) fn corrections(rows: &[Correction<'_>], y: YAxis, png: bool) -> Result<Vec<u8>> {
+    let mut options = PictureOptions::default();
+    options.comb = Comb::Auto;
+    let picture = draw_corrections(rows, y, &options);
     Ok(if png { picture.to_png()? } else { picture.to_svg().as_bytes().to_vec() })
 }
 

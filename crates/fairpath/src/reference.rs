@@ -4,7 +4,8 @@ use std::fmt::Write as _;
 
 use clap::CommandFactory;
 use fairpath_fit::{
-    CubicOptions, CurvatureSpaceOptions, FitOptions, FrenchCurveOptions, LaplacianOptions, MvcOptions, Preset,
+    CubicOptions, CurvatureSpaceOptions, FitOptions, FrenchCurveOptions, LaplacianOptions, MvcOptions,
+    OversketchOptions, Preset,
 };
 use fairpath_shape::InflateOptions;
 use schemars::JsonSchema;
@@ -71,6 +72,10 @@ fn parameters_page() -> String {
     text.push_str(&plain_table::<LaplacianOptions>("With `--method laplacian`", baseline));
     text.push_str(&plain_table::<CubicOptions>("With `--method cubic`", baseline));
     text.push_str(&plain_table::<MvcOptions>("With `--method mvc`", baseline));
+    text.push_str(&plain_table::<OversketchOptions>(
+        "With `fairpath oversketch`",
+        "Beside those of the method of shortest paths above. Sections are those of Baran, Lehtinen and Popović (2010).",
+    ));
     text.push_str(&plain_table::<InflateOptions>(
         "Of `fairpath inflate`",
         "Sections are those of Baran, Lehtinen and Popović (2010).",
@@ -85,7 +90,9 @@ fn plain_table<T: JsonSchema + Serialize + Default>(title: &str, source: &str) -
          | parameter | unit | kind | default | meaning |\n| --- | --- | --- | ---: | --- |\n",
     );
     let values = serde_json::to_value(T::default()).unwrap_or(Value::Null);
-    for Parameter { name, unit, description, kind } in parameters::all::<T>() {
+    // Options within options have a table of their own.
+    let listed = parameters::all::<T>().into_iter().filter(|parameter| !values[&parameter.name].is_object());
+    for Parameter { name, unit, description, kind } in listed {
         let value = parameters::show(&values[&name]);
         let _ = writeln!(text, "| `{name}` | {} | {} | {value} | {} |", cell(&unit), cell(&kind), cell(&description));
     }

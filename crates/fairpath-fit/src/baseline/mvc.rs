@@ -48,6 +48,7 @@ pub(crate) fn fairest(track: &Track, options: &MvcOptions) -> Option<(Parts, usi
         short: Some(Shortness { length: options.spacing, stiffness: STIFFNESS }),
         variation: libm::pow(options.smoothing_length, 6.0),
         pins: [None; 2],
+        held: [None; 2],
     };
     merge(&mut chain, EFFORT)?;
     let count = chain.pieces.len();

@@ -64,6 +64,7 @@ pub(crate) fn refined(
         short: Some(SHORT),
         variation: 0.0,
         pins: [None; 2],
+        held: [None; 2],
     };
     merge(&mut chain, EFFORT)?;
     Some((chain.pieces.iter().map(Piece::segment).collect(), chain.joins, shape != Shape::Open))

@@ -390,7 +390,7 @@ fn make(
     let tangent = walker.tangent;
     let state = |walker: &Walker, s: f64, offset: f64| firmness.state(walker, tangent, primitive, s, offset);
     let (second, last_but_one) = ((first + 1).min(last), (last - 1).max(first));
-    if joins_at_ends(options) {
+    if joins_at_ends(options) || track.held[0].is_some() {
         candidate.head[0] = state(&walker, 0.0, walker.offset(track.coarse.sample(first)));
     }
     let foot = walker.project(track.coarse.sample(second));
@@ -399,7 +399,7 @@ fn make(
     let foot = walker.project_from(near, track.coarse.sample(last_but_one));
     candidate.tail[1] = state(&walker, foot.s, foot.distance);
     candidate.tail[0].s = length;
-    if joins_at_ends(options) {
+    if joins_at_ends(options) || track.held[1].is_some() {
         walker.go_to(length);
         candidate.tail[0] = state(&walker, length, walker.offset(track.coarse.sample(last)));
     }

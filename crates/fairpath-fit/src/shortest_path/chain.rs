@@ -52,18 +52,31 @@ pub(crate) struct Chain<'a> {
     pub(crate) short: Option<Shortness>,
     /// Energy for the square of how fast curvature changes, summed along the chain, px⁶; zero where fairness comes from having few pieces.
     pub(crate) variation: f64,
-    /// Where the ends of a part of a longer chain must stay to meet the rest.
+    /// Where the ends of a part of a longer chain must stay to meet the rest, nearly: the rest can still give way.
     pub(crate) pins: [Option<Pin>; 2],
+    /// Where the ends of an open chain must be exactly, because what they meet stays as it is (section 3.7).
+    pub(crate) held: [Option<Pin>; 2],
 }
 
 /// The pose at which a part of a chain meets the rest: x, y, heading, curvature, of which the first `count` must agree.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Pin {
     pub(crate) pose: [f64; 4],
     pub(crate) count: usize,
 }
 
 impl Pin {
+    /// Whether a kind of piece can meet it: a line has no curvature, and an arc must not be one.
+    pub(crate) fn admits(&self, kind: Kind) -> bool {
+        let bend = self.pose[KAPPA0];
+        self.count <= KAPPA0
+            || match kind {
+                Kind::Line => bend == 0.0,
+                Kind::Arc => bend.abs() > STRAIGHT,
+                Kind::Clothoid => true,
+            }
+    }
+
     /// Adds what a pose, with its derivatives by the parameters of its piece, is away from this one.
     fn hold(&self, piece: usize, pose: [f64; 4], rows: [[f64; Q]; 4], out: &mut Measured) {
         for i in 0..self.count {
@@ -84,6 +97,9 @@ pub(crate) struct Shortness {
 
 /// No piece is short that has this share of what falls to each between two corners.
 const FAIR_SHARE: f64 = 0.6;
+
+/// Curvature below which an arc would be a line, radians per px.
+const STRAIGHT: f64 = 1e-7;
 
 /// Stiffness of a pin in position, heading and curvature.
 const PIN_STIFFNESS: [f64; 4] = [30.0, 30.0, 12e3, 12e5];
@@ -295,7 +311,7 @@ impl Chain<'_> {
         let (first, last) = (data.start, data.end - 1);
         // The seam of a smoothly closed chain is no end, nor is a pin: their data are ordinary.
         let ring = self.closed && self.joins[self.pieces.len() - 1] != Continuity::G0;
-        let goes_on = self.pins.map(|pin| ring || pin.is_some());
+        let goes_on = [0, 1].map(|i| ring || self.pins[i].is_some() || self.held[i].is_some());
         let (open_start, open_end) = (!(goes_on[0] && first == 0), !(goes_on[1] && last + 1 == self.data.len()));
         let mut walker = Walker::new(&primitive(&self.pieces[k]));
         let mut natural = Natural::ZERO;

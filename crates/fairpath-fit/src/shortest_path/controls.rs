@@ -15,6 +15,8 @@ pub(super) enum Role {
     Control,
     /// Zero or equal to another.
     Fixed,
+    /// As it is, because the chain's start is held there.
+    Held,
 }
 
 /// Where the parameters of piece `k` come from.
@@ -40,6 +42,11 @@ pub(super) fn roles(chain: &Chain, k: usize) -> [Role; Q] {
     let flat_after = after.is_some_and(|j| j >= Continuity::G2) && chain.pieces[(k + 1) % n].kind == Kind::Line;
     r[KAPPA1] = if piece.kind == Kind::Clothoid && !flat_after { Role::Control } else { Role::Fixed };
     r[LENGTH] = Role::Control;
+    if k == 0
+        && let Some(pin) = chain.held[0]
+    {
+        r.iter_mut().take(pin.count).filter(|role| **role == Role::State).for_each(|role| *role = Role::Held);
+    }
     r
 }
 

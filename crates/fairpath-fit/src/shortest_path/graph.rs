@@ -4,6 +4,7 @@
 //! them are implied by indices and their costs are computed when a search asks for them.
 
 use super::candidates::Candidate;
+use super::hold::{self, Hold};
 use super::transition::{Door, at_least, estimate, possible};
 use crate::options::FitOptions;
 use crate::track::Track;
@@ -51,12 +52,15 @@ pub(crate) struct Graph<'a> {
     heads: Vec<Door>,
     tails: Vec<Door>,
     corner: &'a [bool],
+    held: &'a [Option<Hold>; 2],
     pub(super) options: &'a FitOptions,
     /// Nodes that start at each sample.
     starts: Vec<std::ops::Range<usize>>,
     /// What verification taught, and for each node the newest of what concerns edges from there: its place, counted from one.
     notes: Vec<Note>,
     newest: Vec<u32>,
+    /// Whether it was verified how each node joins what the start and the end of the stroke are held by.
+    held_verified: Vec<[bool; 2]>,
     /// Edges whose cost was computed.
     pub(crate) computed: usize,
 }
@@ -79,13 +83,19 @@ impl<'a> Graph<'a> {
             starts.push(at..end);
             at = end;
         }
+        for node in &mut nodes {
+            let c = &candidates[node.candidate as usize];
+            node.cost += [0, 1].map(|side| hold::cost(track, c, node.sign, side, options)).iter().sum::<f64>();
+        }
         let newest = vec![0; nodes.len()];
         Self {
+            held_verified: vec![[false; 2]; nodes.len()],
             candidates,
             nodes,
             heads: candidates.iter().map(|c| Door::head(c, options)).collect(),
             tails: candidates.iter().map(|c| Door::tail(c, options)).collect(),
             corner: &track.corner,
+            held: &track.held,
             options,
             starts,
             notes: Vec::new(),
@@ -203,6 +213,24 @@ impl<'a> Graph<'a> {
         dearer
     }
 
+    /// Whether it was verified how a node joins what the stroke's start or end is held by.
+    pub(crate) fn is_held_verified(&self, node: u32, side: usize) -> bool {
+        self.held_verified[node as usize][side]
+    }
+
+    /// Notes what verification found about that: the extra cost of deviation. True if the node got dearer.
+    pub(crate) fn learn_held(&mut self, node: u32, side: usize, deviation: f64) -> bool {
+        self.held_verified[node as usize][side] = true;
+        let node = &mut self.nodes[node as usize];
+        let expected =
+            hold::expected(self.held[side].as_ref(), &self.candidates[node.candidate as usize], side, self.options);
+        let dearer = !(deviation <= expected + 1e-9 * expected.abs() + 1e-9);
+        if dearer {
+            node.cost += deviation - expected;
+        }
+        dearer
+    }
+
     /// Forbids an edge.
     pub(crate) fn forbid(&mut self, edge: Edge) {
         self.note(edge, f64::INFINITY);
@@ -210,6 +238,9 @@ impl<'a> Graph<'a> {
 
     /// Makes the joins of a path dearer, each by its share.
     pub(crate) fn burden(&mut self, path: &Path, by: f64) {
+        if path.joins.is_empty() {
+            self.nodes[path.nodes[0] as usize].cost += by;
+        }
         let share = by / path.joins.len() as f64;
         for edge in path.edges() {
             let cost = self.cost_now(edge) + share;

@@ -5,8 +5,9 @@
 //! whatever the tolerance of the solver. The first pass starts from pieces that do not meet: the feedback law steers the chain along
 //! them.
 
-use super::chain::{Chain, HEADING, Measured, Q, end};
+use super::chain::{Chain, HEADING, KAPPA0, KAPPA1, Measured, Q, end};
 use super::recursion::{CLOSED, Closure, GAP_SCALE, Held, OPEN, backward, forward, gap_before};
+use fairpath_curve::Kind;
 use std::f64::consts::TAU;
 
 /// Gaps that one full step closes anyway, px: while they are smaller they do not hold up the descent.
@@ -48,7 +49,8 @@ pub(crate) fn merge_until(
     effort: Effort,
     judge: impl Fn(&Chain, &Measured, usize) -> Verdict,
 ) -> Option<Measured> {
-    if chain.closed { descend::<CLOSED>(chain, effort, judge) } else { descend::<OPEN>(chain, effort, judge) }
+    let bound = chain.closed || chain.held[1].is_some();
+    if bound { descend::<CLOSED>(chain, effort, judge) } else { descend::<OPEN>(chain, effort, judge) }
 }
 
 /// Gauss–Newton rounds with a damping that follows their success.
@@ -57,6 +59,7 @@ fn descend<const Z: usize>(
     effort: Effort,
     judge: impl Fn(&Chain, &Measured, usize) -> Verdict,
 ) -> Option<Measured> {
+    begin_where_held(chain);
     unwrap_headings(chain);
     let closure = Closure::of(chain);
     let mut held: Vec<Held> = vec![[false; Q]; chain.pieces.len()];
@@ -171,6 +174,17 @@ fn gaps(chain: &Chain) -> f64 {
     (1..chain.pieces.len())
         .map(|k| gap_before(chain, &chain.pieces, k).iter().zip(GAP_SCALE).map(|(g, w)| g.abs() * w).sum::<f64>())
         .sum()
+}
+
+/// Puts the start of a held chain where it is held; the recursion leaves it there.
+fn begin_where_held(chain: &mut Chain) {
+    let (Some(pin), piece) = (chain.held[0], &mut chain.pieces[0]) else { return };
+    piece.q[..pin.count].copy_from_slice(&pin.pose[..pin.count]);
+    match piece.kind {
+        Kind::Line => piece.q[KAPPA0] = 0.0,
+        Kind::Arc => piece.q[KAPPA1] = piece.q[KAPPA0],
+        Kind::Clothoid => {}
+    }
 }
 
 /// Makes the headings of pieces that join smoothly run on without jumps of whole turns.

@@ -8,6 +8,7 @@ mod controls;
 mod cycle;
 mod distances;
 mod graph;
+pub(crate) mod hold;
 pub(crate) mod merge;
 mod recursion;
 mod refine;
@@ -30,6 +31,14 @@ use search::Verifier;
 
 /// Effort of the final merge.
 const FINAL: Effort = Effort { rounds: 14, tolerance: 1e-3 };
+
+/// A curve in pixels along a prepared track, and its cost; nothing where the options allow none.
+pub(crate) fn fit_track(track: &Track, cleaned: &Cleaned, options: &FitOptions) -> Option<(Parts, Report)> {
+    let mut report = Report { samples: track.turn + usize::from(track.shape == Shape::Open), ..Report::default() };
+    let length = track.all.station(track.turn);
+    let options = &FitOptions { free_error: options.free_error.min(options.free_share * length), ..options.clone() };
+    attempt(track, cleaned, options, &mut (), &mut report, None).map(|parts| (parts, report))
+}
 
 /// Fits a stroke.
 pub(crate) fn fit(
@@ -83,13 +92,13 @@ pub(crate) fn fit(
 }
 
 /// A curve may be longer than its stroke by this factor: many corners drawn out to their tips add up.
-const LONGER: f64 = 1.01;
+pub(crate) const LONGER: f64 = 1.01;
 
 /// A curve further than this many times `max_error` from its stroke is fitted again.
-const STRAY: f64 = 1.4;
+pub(crate) const STRAY: f64 = 1.4;
 
 /// Options that stay closer to the stroke.
-fn closer(options: &FitOptions) -> FitOptions {
+pub(crate) fn closer(options: &FitOptions) -> FitOptions {
     FitOptions {
         error_cost: 4.0 * options.error_cost,
         inflection_cost: 0.25 * options.inflection_cost,
@@ -159,14 +168,15 @@ fn attempt(
     let below = circle.map_or(f64::INFINITY, |c| REFINED * c.cost);
     let mut best: Option<(Path, Option<Merged>)> = None;
     let cost_of = |merged: &Option<Merged>| merged.as_ref().map_or(f64::INFINITY, |m| m.cost);
-    for _ in 0..if exact_ring { RING_ROUNDS } else { 1 } {
+    let is_held = track.held.iter().any(Option::is_some);
+    for _ in 0..if exact_ring || is_held { SURPRISED_ROUNDS } else { 1 } {
         observer.step(Step::Search);
         let Some(path) = search::search(&mut graph, &mut verifier, below) else { break };
         observer.step(Step::Merge);
         let merged = merge_path(&graph, &path, track, options);
         let cost = cost_of(&merged);
-        // Joins are verified two pieces at a time. What that misses in a ring of few pieces shows in the whole: then its joins bear
-        // what it costs more, and another cycle may be better.
+        // Joins are verified two pieces at a time. What that misses in a ring of few pieces, or in a few between held ends, shows in the
+        // whole: then its joins bear what it costs more, and another path may be better.
         let surprise = cost > SURPRISE * path.cost;
         if surprise {
             graph.burden(&path, cost - path.cost);
@@ -200,14 +210,14 @@ fn attempt(
 /// A cycle may cost this many times what a circle does: refinement can bring it below.
 const REFINED: f64 = 2.0;
 
-/// Most cycles that are merged.
-const RING_ROUNDS: usize = 3;
+/// Most paths that are merged where ends meet or are held.
+const SURPRISED_ROUNDS: usize = 3;
 
-/// A merged ring that costs more than this many times what its path did was misjudged.
+/// A merged path that costs more than this many times what its path did was misjudged.
 const SURPRISE: f64 = 1.5;
 
 /// Options under which every stroke has a curve that is not far off: what was forbidden is dear instead.
-fn loosened(options: &FitOptions) -> FitOptions {
+pub(crate) fn loosened(options: &FitOptions) -> FitOptions {
     FitOptions {
         max_error: 2.0 * options.max_error,
         max_join_error: 2.0 * options.max_join_error,
@@ -233,7 +243,12 @@ fn merge_path(graph: &Graph, path: &Path, track: &Track, options: &FitOptions) -
         joins.push(Continuity::G0);
     }
     let whole = Some((track.shape, track.turn));
-    let along = |course, joins| -> Chain { search::chain(graph.candidates, &nodes, joins, whole, course, options) };
+    let held = track.held.map(|hold| hold.map(|h| h.pin));
+    let along = |course, joins| -> Chain {
+        let mut chain = search::chain(graph.candidates, &nodes, joins, whole, course, held, options);
+        hold::give_freedom(&mut chain);
+        chain
+    };
     let mut chain = along(&track.all, joins.clone());
     if options.refine {
         // Chosen by the coarse points, fitted to all.

@@ -5,8 +5,8 @@
 //! weaker join also curvature or heading at its start), and the piece's end is the next state: backward for the feedback law, forward
 //! for the new chain, at a cost linear in the number of pieces.
 //!
-//! A closed chain adds four equations, that the last end is the first start. They are carried through the recursion with
-//! the first state and their multipliers as parameters.
+//! A closed chain adds four equations, that the last end is the first start; one whose end is held adds as many, that it is there. They are
+//! carried through the recursion with the first state and their multipliers as parameters. A held start is no unknown at all.
 
 use super::chain::{Chain, HEADING, KAPPA0, KAPPA1, Measured, Piece, PieceNormal, Q, end, end_with_jacobian};
 use super::controls::{Role, control_bounds, first_bounds, reach, roles};
@@ -16,7 +16,8 @@ use std::f64::consts::TAU;
 
 /// Numbers in a state.
 const STATE: usize = 4;
-/// State and parameters of an open and of a closed chain; the latter carries the first state and the multipliers of closure.
+/// State and parameters of a chain whose end is free, and of one that is closed or held there; the latter carries the first state and the
+/// multipliers of closure.
 pub(crate) const OPEN: usize = STATE;
 pub(crate) const CLOSED: usize = STATE + 8;
 
@@ -54,20 +55,29 @@ pub(crate) fn gap_before(chain: &Chain, pieces: &[Piece], k: usize) -> [f64; 4] 
     std::array::from_fn(|i| if taken[i] == Role::State { arrived[i] - pieces[k].q[i] } else { 0.0 })
 }
 
-/// The equations that close a chain.
+/// The equations that close a chain, or hold its end.
 pub(crate) struct Closure {
     /// How many of x, y, heading and curvature must agree.
     pub(crate) count: usize,
-    /// What the last heading exceeds the first by: whole turns.
+    /// What the last heading exceeds the first, or the held one, by: whole turns.
     turns: f64,
+    /// The pose at which the end is held; else the chain must return to its start.
+    held: Option<[f64; STATE]>,
 }
 
 impl Closure {
     pub(crate) fn of(chain: &Chain) -> Self {
-        if !chain.closed {
-            return Self { count: 0, turns: 0.0 };
-        }
         let n = chain.pieces.len();
+        if let Some(pin) = chain.held[1] {
+            // A line's curvature is zero anyway.
+            let known = pin.count > KAPPA0 && chain.pieces[n - 1].kind == Kind::Line;
+            let turned = end(&chain.pieces[n - 1].q)[HEADING] - pin.pose[HEADING];
+            let turns = TAU * (turned / TAU + 0.5).floor();
+            return Self { count: pin.count - usize::from(known), turns, held: Some(pin.pose) };
+        }
+        if !chain.closed {
+            return Self { count: 0, turns: 0.0, held: None };
+        }
         let straight = chain.pieces[0].kind == Kind::Line || chain.pieces[n - 1].kind == Kind::Line;
         let count = match chain.joins[n - 1] {
             Continuity::G0 => 2,
@@ -75,14 +85,14 @@ impl Closure {
             Continuity::G2 | Continuity::G3 => 4 - usize::from(straight),
         };
         let turned = end(&chain.pieces[n - 1].q)[HEADING] - chain.pieces[0].q[HEADING];
-        Self { count, turns: TAU * (turned / TAU + 0.5).floor() }
+        Self { count, turns: TAU * (turned / TAU + 0.5).floor(), held: None }
     }
 
     fn gap(&self, pieces: &[Piece]) -> [f64; 4] {
         let last = end(&pieces[pieces.len() - 1].q);
         let mut gap = [0.0; 4];
         for i in 0..self.count {
-            gap[i] = last[i] - pieces[0].q[i];
+            gap[i] = last[i] - self.held.map_or(pieces[0].q[i], |pose| pose[i]);
         }
         if self.count > HEADING {
             gap[HEADING] -= self.turns;
@@ -122,23 +132,26 @@ pub(crate) fn backward<const Z: usize>(
     let mut laws = vec![Law { feed: [0.0; Q], gain: [[0.0; Z]; Q], slope: [0.0; Q], slope_gain: [[0.0; Z]; Q] }; n];
     let mut value = Value { h: [[0.0; Z]; Z], g: [0.0; Z] };
     if closure.count > 0 {
-        // The Lagrangian of closure: multiplier times (last state − first state − turns).
+        // The Lagrangian of closure: multiplier times (last state − first or held state − turns).
         let gap = closure.gap(&chain.pieces);
         for i in 0..closure.count {
             let l = 8 + i;
             value.h[i][l] = 1.0;
             value.h[l][i] = 1.0;
-            value.h[4 + i][l] = -1.0;
-            value.h[l][4 + i] = -1.0;
             value.g[l] = gap[i];
             // A square of the gap is added. It vanishes with the gap and so changes no solution, but without it nothing would
             // resist the controls near the end, and the recursion would be ill-conditioned.
             let w = GAP_STIFFNESS * GAP_SCALE[i] * GAP_SCALE[i];
             value.h[i][i] += w;
+            value.g[i] += w * gap[i];
+            if closure.held.is_some() {
+                continue;
+            }
+            value.h[4 + i][l] = -1.0;
+            value.h[l][4 + i] = -1.0;
             value.h[4 + i][4 + i] += w;
             value.h[i][4 + i] -= w;
             value.h[4 + i][i] -= w;
-            value.g[i] += w * gap[i];
             value.g[4 + i] -= w * gap[i];
         }
     }
@@ -424,8 +437,10 @@ pub(crate) fn forward<const Z: usize>(
     for i in 0..4 {
         state[i] = old[0].q[i] + step * first[i];
     }
-    let (low, high) = first_bounds(chain);
-    state[KAPPA0] = state[KAPPA0].clamp(low, high);
+    if chain.held[0].is_none_or(|pin| pin.count <= KAPPA0) {
+        let (low, high) = first_bounds(chain);
+        state[KAPPA0] = state[KAPPA0].clamp(low, high);
+    }
     for k in 0..old.len() {
         let roles = roles(chain, k);
         let law = &laws[k];

@@ -6,6 +6,7 @@
 
 use super::candidates::{deviation, mergeable, penalty};
 use super::chain::{Chain, KAPPA0, KAPPA1, LENGTH, Measured, Piece, Pin, end};
+use super::hold::halves;
 use super::merge::{Effort, Verdict, is_hopeful, merge, merge_until};
 use super::transition::possible;
 use crate::options::FitOptions;
@@ -179,17 +180,10 @@ fn changes(chain: &Chain, measured: &Measured, k: usize, options: &FitOptions) -
         && own > 2.0 * price + WORTHWHILE
     {
         let piece = &chain.pieces[k];
-        let half = 0.5 * piece.q[LENGTH];
-        let middle = 0.5 * (piece.q[KAPPA0] + piece.q[KAPPA1]);
-        let mut first = Piece { kind: Kind::Clothoid, sign: [piece.sign[0], 0], ..*piece };
-        (first.q[KAPPA1], first.q[LENGTH]) = (middle, half);
-        let at = end(&first.q);
-        let mut second = Piece { kind: Kind::Clothoid, sign: [0, piece.sign[1]], ..*piece };
-        second.q[..4].copy_from_slice(&at);
-        (second.q[KAPPA1], second.q[LENGTH]) = (piece.q[KAPPA1], half);
-        if half > 2.0 {
+        if 0.5 * piece.q[LENGTH] > 2.0 {
             let promise = own - 2.0 * price;
-            out.push(Change { range: k..k + 1, with: vec![first, second], level: Continuity::G2, promise });
+            let with = halves(piece).to_vec();
+            out.push(Change { range: k..k + 1, with, level: Continuity::G2, promise });
         }
     }
     out
@@ -299,6 +293,12 @@ fn fits(chain: &Chain, change: &Change) -> bool {
     if let Some((kind, _)) = at(1) {
         kinds.push((kind, Continuity::G0));
     }
+    let meets = |side: usize, kind: Kind| chain.held[side].is_none_or(|pin| pin.admits(kind));
+    if change.range.start == 0 && !change.with.first().is_some_and(|p| meets(0, p.kind))
+        || change.range.end == n && !change.with.last().is_some_and(|p| meets(1, p.kind))
+    {
+        return false;
+    }
     kinds.windows(2).all(|w| possible(w[0].0, w[1].0, w[0].1))
         && kinds.windows(3).all(|w| {
             !(w[0].0 == Kind::Line
@@ -354,6 +354,7 @@ fn tried(chain: &Chain, measured: &Measured, change: &Change, options: &FitOptio
         short: chain.short,
         variation: 0.0,
         pins,
+        held: [chain.held[0].filter(|_| from == 0), chain.held[1].filter(|_| to == n)],
     };
     if part.data.len() < 3 {
         return None;

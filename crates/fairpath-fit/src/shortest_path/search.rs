@@ -3,10 +3,11 @@
 
 use super::a_star::a_star;
 use super::candidates::{Candidate, penalty};
-use super::chain::{Chain, Measured, Piece, Shortness};
+use super::chain::{Chain, KAPPA0, Measured, Piece, Pin, Shortness};
 use super::cycle::shortest_cycle;
 use super::distances::{Distances, Goal};
 use super::graph::{Edge, Graph, Node, Path};
+use super::hold::Hold;
 use super::merge::{Effort, Verdict, merge_until};
 use super::transition::overlap;
 use crate::options::{ClosedSearch, FitOptions, Search};
@@ -138,6 +139,24 @@ impl<'a> Verifier<'a> {
                 dearer.push(edge.from);
             }
         }
+        dearer.extend(self.reprice_held(graph, path));
+        dearer
+    }
+
+    /// Verifies how a path joins what its ends are held by (section 3.7); the nodes that got dearer.
+    fn reprice_held(&mut self, graph: &mut Graph, path: &Path) -> Vec<u32> {
+        let mut dearer = Vec::new();
+        for (side, node) in [path.nodes[0], path.nodes[path.nodes.len() - 1]].into_iter().enumerate() {
+            let Some(hold) = &self.track.held[side] else { continue };
+            if graph.is_held_verified(node, side) {
+                continue;
+            }
+            self.verifications += 1;
+            let deviation = verify_held(graph, node, side, hold, self.track, self.options);
+            if graph.learn_held(node, side, deviation) {
+                dearer.push(node);
+            }
+        }
         dearer
     }
 
@@ -173,7 +192,7 @@ fn pinched(graph: &mut Graph, path: &Path) -> Option<Edge> {
 fn verify(graph: &Graph, edge: Edge, track: &Track, options: &FitOptions) -> f64 {
     let ends = [edge.from, edge.to].map(|i| graph.nodes[i as usize]);
     let (u, v) = (&graph.candidates[ends[0].candidate as usize], &graph.candidates[ends[1].candidate as usize]);
-    let mut chain = chain(graph.candidates, &ends, vec![edge.level], None, &track.coarse, options);
+    let mut chain = chain(graph.candidates, &ends, vec![edge.level], None, &track.coarse, [None; 2], options);
     let extra = |measured: &Measured| {
         let (a, b) = (measured.normals[0].deviation(options), measured.normals[1].deviation(options));
         (penalty(a, options) - u.penalty).max(0.0) + (penalty(b, options) - v.penalty).max(0.0)
@@ -186,14 +205,26 @@ fn verify(graph: &Graph, edge: Edge, track: &Track, options: &FitOptions) -> f64
     merge_until(&mut chain, VERIFY, judge).map_or(f64::INFINITY, |measured| extra(&measured))
 }
 
+/// As [`verify`], of a candidate and what the end of the stroke is held by.
+fn verify_held(graph: &Graph, node: u32, side: usize, hold: &Hold, track: &Track, options: &FitOptions) -> f64 {
+    let node = graph.nodes[node as usize];
+    let before = graph.candidates[node.candidate as usize].penalty;
+    let mut held = [None; 2];
+    held[side] = Some(hold.pin);
+    let mut chain = chain(graph.candidates, &[node], Vec::new(), None, &track.coarse, held, options);
+    let measured = merge_until(&mut chain, VERIFY, |_, _, _| Verdict::GoOn);
+    measured.map_or(f64::INFINITY, |m| (penalty(m.normals[0].deviation(options), options) - before).max(0.0))
+}
+
 /// The chain of a sequence of nodes, each trimmed to the middle of its overlaps (section 3.6), along the points of `course`. If it is
-/// the `whole` stroke, its shape and the samples in one turn tell how it closes.
+/// the `whole` stroke, its shape and the samples in one turn tell how it closes; `held` ends begin and end it exactly.
 pub(crate) fn chain<'a>(
     candidates: &[Candidate],
     nodes: &[Node],
     joins: Vec<Continuity>,
     whole: Option<(Shape, usize)>,
     course: &'a Course,
+    held: [Option<Pin>; 2],
     options: &FitOptions,
 ) -> Chain<'a> {
     let n = nodes.len();
@@ -246,6 +277,12 @@ pub(crate) fn chain<'a>(
     };
     let stiffness = SHORT_STIFFNESS * options.shortness_cost;
     let short = whole.map(|_| Shortness { length: options.short_length, stiffness });
+    for (side, k) in [0, n - 1].into_iter().enumerate() {
+        // There the curvature is given.
+        if held[side].is_some_and(|pin| pin.count > KAPPA0) {
+            pieces[k].sign[side] = 0;
+        }
+    }
     Chain {
         pieces,
         joins,
@@ -256,6 +293,7 @@ pub(crate) fn chain<'a>(
         short,
         variation: 0.0,
         pins: [None; 2],
+        held,
     }
 }
 

@@ -1,8 +1,10 @@
 //! What it costs to join two candidates (section 3.4 of Baran et al. 2010).
 
 use super::candidates::{Candidate, JoinState, penalty};
+use super::chain::{HEADING, KAPPA0, Pin};
+use crate::linear::{cholesky, solve_lower};
 use crate::options::{FitOptions, Transitions};
-use fairpath_curve::{Continuity, Kind};
+use fairpath_curve::{Continuity, Kind, trig};
 
 /// Whether two kinds can be joined with a continuity without degenerating.
 pub(crate) fn possible(u: Kind, v: Kind, level: Continuity) -> bool {
@@ -40,6 +42,24 @@ pub(crate) fn estimate(u: &Candidate, v: &Candidate, level: Continuity, options:
         return None;
     }
     Some((penalty(eu, options) - u.penalty + penalty(ev, options) - v.penalty).max(0.0))
+}
+
+/// Extra cost of deviation that is expected when a candidate, which passes the end of the stroke as `state` says, is moved to where the curve
+/// is held there; nothing if that would move it too far.
+pub(crate) fn estimate_held(c: &Candidate, state: &JoinState, pin: &Pin, options: &FitOptions) -> Option<f64> {
+    let [xx, xy, xz, yy, yz, zz] = state.covariance;
+    let mut factor = [[xx + FIRMNESS[0], 0.0, 0.0], [xy, yy + FIRMNESS[1], 0.0], [xz, yz, zz + FIRMNESS[2]]];
+    let turn = trig::wrap_angle(pin.pose[HEADING] - state.heading);
+    let mut gap = [state.offset, turn, pin.pose[KAPPA0] - state.curvature];
+    // Position along the curve is no matter: it is longer or shorter then.
+    let n = pin.count - 1;
+    if !cholesky(&mut factor, n, 1e-13) {
+        return None;
+    }
+    solve_lower(&factor, n, &mut gap);
+    let energy: f64 = gap[..n].iter().map(|v| v * v).sum();
+    let after = (c.error * c.error + c.spread * energy).sqrt();
+    (after <= options.max_join_error).then(|| (penalty(after, options) - c.penalty).max(0.0))
 }
 
 /// What [`at_least`] needs to know of an end of a candidate, side by side: it is asked far more often than [`estimate`].

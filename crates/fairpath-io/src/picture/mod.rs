@@ -6,6 +6,7 @@
 mod board;
 mod drawing;
 mod lettering;
+mod oversketch;
 mod page;
 mod pieces;
 mod shaded;
@@ -15,6 +16,7 @@ mod stages;
 pub use board::draw_templates;
 pub(crate) use drawing::bounds;
 pub use drawing::draw_splines;
+pub use oversketch::{Correction, draw_corrections};
 pub use page::Picture;
 pub(crate) use page::{View, path_data};
 pub use pieces::draw_pieces;

@@ -21,6 +21,8 @@ pub(crate) mod colour {
     pub(crate) const RULE: &str = "#eceef1";
     pub(crate) const TEMPLATE: &str = "#59636f";
     pub(crate) const CELLULOID: &str = "#f4e9c8";
+    pub(crate) const REPLACED: &str = "#f08a24";
+    pub(crate) const WIDENED: &str = "#fbd9b0";
     pub(crate) const FAILED: &str = "#b3261e";
 }
 

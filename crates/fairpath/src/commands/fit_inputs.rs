@@ -110,7 +110,7 @@ impl Inputs {
 }
 
 /// Size of one pixel of a 100 dpi screen in the file's unit, as its unit says, or where that is px, its dpi.
-fn pixel_size(file: &StrokeFile) -> f64 {
+pub(crate) fn pixel_size(file: &StrokeFile) -> f64 {
     match file.unit {
         Unit::Px => file.dpi.map_or(1.0, |dpi| dpi / 100.0),
         unit => unit.pixel_size(),

@@ -2,12 +2,14 @@
 
 pub(crate) mod compare;
 pub(crate) mod convert;
+pub(crate) mod edit;
 pub(crate) mod fit;
 mod fit_inputs;
 mod fit_report;
 mod fitting;
 pub(crate) mod inflate;
 mod method_options;
+pub(crate) mod oversketch;
 mod template_sets;
 pub(crate) mod templates;
 

@@ -1,0 +1,83 @@
+//! Ends of a stroke at which the curve is held, because it goes on there in segments that exist already (section 3.7 of Baran et al. 2010).
+//!
+//! The paper makes these segments the sole source and sink of the graph. Here each candidate at such an end bears itself what joining them
+//! costs, which comes to the same.
+
+use super::candidates::Candidate;
+use super::chain::{Chain, KAPPA0, KAPPA1, LENGTH, Piece, Pin, end};
+use super::transition::estimate_held;
+use crate::options::FitOptions;
+use crate::track::Track;
+use fairpath_curve::{Continuity, Kind};
+
+/// How the curve is held at an end of the stroke.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Hold {
+    /// Where it must be, and how smoothly it must meet what exists: 2 numbers for G0, 3 for G1, 4 for G2.
+    pub(crate) pin: Pin,
+    /// The sign with which the curvature of what exists comes to the join; 0 if it has none.
+    pub(crate) sign: i8,
+}
+
+/// What a candidate with those logical signs of curvature costs in addition because the stroke is held at its start (side 0) or end
+/// (side 1); infinite where the two cannot be joined.
+pub(super) fn cost(track: &Track, c: &Candidate, sign: [i8; 2], side: usize, options: &FitOptions) -> f64 {
+    let is_there = [c.first == 0, c.last as usize == track.turn][side];
+    let Some(hold) = track.held[side].as_ref().filter(|_| is_there) else { return 0.0 };
+    let inflects = hold.pin.count == 4 && hold.sign * sign[side] < 0;
+    expected(Some(hold), c, side, options) + if inflects { options.inflection_cost } else { 0.0 }
+}
+
+/// The extra cost of deviation that joining is expected to bring.
+pub(super) fn expected(hold: Option<&Hold>, c: &Candidate, side: usize, options: &FitOptions) -> f64 {
+    let Some(Hold { pin, .. }) = hold else { return 0.0 };
+    let state = if side == 0 { &c.head[0] } else { &c.tail[0] };
+    // What looks like a line from its data may have to bend: only its kind is sure.
+    if !pin.admits(c.kind) || (c.kind == Kind::Arc && pin.count == 4 && pin.pose[3] * c.primitive.kappa < 0.0) {
+        return f64::INFINITY;
+    }
+    estimate_held(c, state, pin, options).unwrap_or(f64::INFINITY)
+}
+
+/// Splits pieces of a chain that is held at both ends until it can meet both: each end that is held takes away up to four freedoms, and
+/// few pieces have no more. What is split needlessly, refinement unites again.
+pub(super) fn give_freedom(chain: &mut Chain) {
+    let [Some(start), Some(last)] = chain.held else { return };
+    if chain.joins.contains(&Continuity::G0) {
+        return;
+    }
+    while freedom(chain) + 4 - start.count < last.count + SPARE {
+        let length = |k: &usize| chain.pieces[*k].q[LENGTH];
+        let Some(longest) = (0..chain.pieces.len()).max_by(|a, b| length(a).total_cmp(&length(b))) else { return };
+        split(chain, longest);
+    }
+}
+
+/// Freedoms beyond those that the ends take away, so that the curve can still follow its data.
+const SPARE: usize = 2;
+
+/// Numbers that a merge can choose for the pieces of a chain, its start aside.
+fn freedom(chain: &Chain) -> usize {
+    let flat_after = |k: usize| chain.pieces.get(k + 1).is_some_and(|next| next.kind == Kind::Line);
+    let own = |k: usize| 1 + usize::from(chain.pieces[k].kind == Kind::Clothoid && !flat_after(k));
+    (0..chain.pieces.len()).map(own).sum()
+}
+
+/// Makes two clothoids of a piece.
+pub(super) fn split(chain: &mut Chain, k: usize) {
+    let [first, second] = halves(&chain.pieces[k]);
+    chain.pieces.splice(k..=k, [first, second]);
+    chain.joins.insert(k, Continuity::G2);
+}
+
+/// Two clothoids that are together what a piece is.
+pub(super) fn halves(piece: &Piece) -> [Piece; 2] {
+    let half = 0.5 * piece.q[LENGTH];
+    let middle = 0.5 * (piece.q[KAPPA0] + piece.q[KAPPA1]);
+    let mut first = Piece { kind: Kind::Clothoid, sign: [piece.sign[0], 0], ..*piece };
+    (first.q[KAPPA1], first.q[LENGTH]) = (middle, half);
+    let mut second = Piece { kind: Kind::Clothoid, sign: [0, piece.sign[1]], ..*piece };
+    second.q[..=KAPPA0].copy_from_slice(&end(&first.q));
+    (second.q[KAPPA1], second.q[LENGTH]) = (piece.q[KAPPA1], half);
+    [first, second]
+}
