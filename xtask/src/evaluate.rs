@@ -46,7 +46,10 @@ pub(crate) fn run(names: &[String]) -> Result<()> {
     steps.finish()
 }
 
-/// Adds a step for each file; where the shared data folder is absent, one that says so.
+/// The methods whose curves are judged on every file, the usual one first; the tables of README are of that.
+const METHODS: [&str; 3] = [limits::USUAL_METHOD, "curvature-space", "french-curve"];
+
+/// Adds a step for each method and file; where the shared data folder is absent, one that says so.
 pub(crate) fn add_steps(steps: &mut Steps, names: &[String]) {
     let mut files = files();
     files.retain(|file| names.is_empty() || names.iter().any(|name| file_name(file).starts_with(name)));
@@ -57,25 +60,33 @@ pub(crate) fn add_steps(steps: &mut Steps, names: &[String]) {
         });
         return;
     }
+    for method in METHODS {
+        add_steps_of(steps, method, &files);
+    }
+}
+
+/// Adds a step for each file and prints the table of them.
+fn add_steps_of(steps: &mut Steps, method: &str, files: &[PathBuf]) {
     let mut rows = Vec::new();
     let mut all_short = Vec::new();
     let mut growth = None;
     for file in files {
-        let name = file_name(&file);
-        steps.step(format!("evaluator: {name}"), || {
-            let judged = judge(&file)?;
-            let held = limits::hold(&name, &judged.summary);
+        let name = file_name(file);
+        let step = if method == limits::USUAL_METHOD { name.clone() } else { format!("{name}, {method}") };
+        steps.step(format!("evaluator: {step}"), || {
+            let judged = judge(file, method)?;
+            let held = limits::hold(method, &name, &judged.summary);
             rows.push(row(&name, &judged, &held));
             if name == bench::LONG {
-                growth = Some(exponent(&file, &judged)?);
+                growth = Some(exponent(file, &judged)?);
             }
             let mut faults = judged.faults;
             faults.extend(held.broken);
             for fault in &faults {
-                println!("{name}: {fault}");
+                println!("{step}: {fault}");
             }
             let short: Vec<String> = held.short.iter().map(ToString::to_string).collect();
-            all_short.extend(short.iter().map(|short| format!("{name}: {short}")));
+            all_short.extend(short.iter().map(|short| format!("{step}: {short}")));
             if !faults.is_empty() {
                 bail!("{}", faults.join("; "))
             }
@@ -85,7 +96,7 @@ pub(crate) fn add_steps(steps: &mut Steps, names: &[String]) {
             Ok(Outcome::Passed(format!("{} strokes reach every goal", judged.summary["strokes"])))
         });
     }
-    println!();
+    println!("\n{method}:\n");
     table::print(HEADER, &rows);
     if !all_short.is_empty() {
         println!("\n{SHORT} SHORT OF GOAL:");
@@ -133,15 +144,15 @@ struct Judged {
     faults: Vec<String>,
 }
 
-fn judge(strokes: &Path) -> Result<Judged> {
+fn judge(strokes: &Path, method: &str) -> Result<Judged> {
     let name = file_name(strokes);
-    let spline = tree::scratch("evaluate")?.join(&name);
+    let spline = tree::scratch("evaluate")?.join(format!("{method}-{name}"));
     let figures = spline.with_extension("figures.json");
     let mut faults = Vec::new();
 
     // One thread, so that the times in the table are the strokes' own.
     let mut fit = Command::new(tree::fairpath()?);
-    fit.arg("fit").arg(strokes).arg("-o").arg(&spline).args(["--threads", "1"]);
+    fit.arg("fit").arg(strokes).arg("-o").arg(&spline).args(["--threads", "1", "--method", method]);
     let ran = process::capture_within(&mut fit, LIMIT)?;
     if !matches!(ran.code, Some(0 | 1)) {
         bail!("{} ended with {:?}:\n{}", process::shown(&fit), ran.code, ran.text);

@@ -29,11 +29,21 @@ const fn short(figure: &'static str, goal: f64, held: f64) -> Limit {
     Limit { figure, goal, held: Some(held) }
 }
 
-/// Limits that hold for every file that has none of its own for the figure. Distances are in px.
+/// Limits of the usual method that hold for every file that has none of its own for the figure. Distances are in px.
 pub(crate) const EVERY_FILE: &[Limit] =
     &[reached("missing", 0.0), reached("faulty", 0.0), reached("dev_max", 8.0), reached("rev_max", 8.0)];
 
-/// Limits of single files.
+/// The method that is used where none is asked for.
+pub(crate) const USUAL_METHOD: &str = "shortest-path";
+
+/// Limits of the other methods, for every file: every stroke has a sound curve.
+const OTHER_METHODS: &[Limit] = &[reached("missing", 0.0), reached("faulty", 0.0)];
+
+/// Limits of the other methods for single files. Curvature space keeps within one and a half times of what shortest paths reach.
+const OTHER_FILES: &[(&str, &str, &[Limit])] =
+    &[("curvature-space", "synthetic.json", &[reached("dev_rms_mean", 1.5 * 0.791)])];
+
+/// Limits of single files for the usual method.
 const FILES: &[(&str, &[Limit])] = &[
     (
         "synthetic.json",
@@ -82,9 +92,13 @@ pub(crate) struct Held {
 }
 
 /// Holds the evaluator's summary of a file against its limits.
-pub(crate) fn hold(file: &str, summary: &Value) -> Held {
-    let own = FILES.iter().filter(|(name, _)| *name == file).flat_map(|(_, limits)| *limits);
-    let general = EVERY_FILE.iter().filter(|limit| !own.clone().any(|o| o.figure == limit.figure));
+pub(crate) fn hold(method: &str, file: &str, summary: &Value) -> Held {
+    let usual = FILES.iter().map(|&(name, limits)| (USUAL_METHOD, name, limits));
+    let others = OTHER_FILES.iter().copied();
+    let own =
+        usual.chain(others).filter(|&(by, name, _)| by == method && name == file).flat_map(|(_, _, limits)| limits);
+    let every = if method == USUAL_METHOD { EVERY_FILE } else { OTHER_METHODS };
+    let general = every.iter().filter(|limit| !own.clone().any(|o| o.figure == limit.figure));
     let mut held = Held::default();
     for &Limit { figure, goal, held: exception } in general.chain(own.clone()) {
         let most = exception.unwrap_or(goal);
@@ -113,14 +127,14 @@ mod tests {
     fn a_good_summary_breaks_nothing() {
         let summary =
             json!({"missing": 0, "faulty": 0, "dev_max": 8.0, "rev_max": 1.0, "segments": 368, "dev_rms_mean": 0.5});
-        assert_eq!(hold("wacom.json", &summary), Held::default());
+        assert_eq!(hold(USUAL_METHOD, "wacom.json", &summary), Held::default());
     }
 
     #[test]
     fn each_limit_can_be_broken() {
         let summary =
             json!({"missing": 1, "faulty": 0, "dev_max": 8.1, "rev_max": 1.0, "segments": 369, "dev_rms_mean": 0.5});
-        let said = hold("wacom.json", &summary).broken;
+        let said = hold(USUAL_METHOD, "wacom.json", &summary).broken;
         assert_eq!(
             said,
             ["missing is 1, more than 0", "dev_max is 8.1, more than 8", "segments is 369, more than 368"]
@@ -129,10 +143,20 @@ mod tests {
 
     #[test]
     fn a_figure_that_was_not_measured_is_a_breach() {
-        let said = hold("hwrt.json", &json!({"missing": 0, "faulty": 0, "dev_max": 1.0})).broken;
+        let said = hold(USUAL_METHOD, "hwrt.json", &json!({"missing": 0, "faulty": 0, "dev_max": 1.0})).broken;
         assert_eq!(said, ["rev_max is missing from the evaluator's summary"]);
         let unmeasured = json!({"missing": 0, "faulty": 0, "dev_max": null, "rev_max": 0});
-        assert!(!hold("hwrt.json", &unmeasured).broken.is_empty());
+        assert!(!hold(USUAL_METHOD, "hwrt.json", &unmeasured).broken.is_empty());
+    }
+
+    #[test]
+    fn other_methods_are_held_to_soundness_on_every_file_and_to_more_on_some() {
+        let summary = json!({"missing": 0, "faulty": 0, "dev_max": 30.0, "rev_max": 30.0, "dev_rms_mean": 1.2});
+        assert_eq!(hold("french-curve", "synthetic.json", &summary), Held::default());
+        assert_eq!(hold("curvature-space", "wacom.json", &summary), Held::default());
+        assert_eq!(hold("curvature-space", "synthetic.json", &summary).broken.len(), 1);
+        let faulty = json!({"missing": 1, "faulty": 2});
+        assert_eq!(hold("french-curve", "wacom.json", &faulty).broken.len(), 2);
     }
 
     #[test]
@@ -142,7 +166,7 @@ mod tests {
                 let most = limit.held.unwrap();
                 assert!(most > limit.goal, "{file}: {}", limit.figure);
                 let at = |value: f64| {
-                    let held = hold(file, &json!({ limit.figure: value }));
+                    let held = hold(USUAL_METHOD, file, &json!({ limit.figure: value }));
                     let broken =
                         held.broken.iter().any(|said| said.starts_with(&format!("{} is {value}", limit.figure)));
                     (broken, held.short.iter().any(|short| short.figure == limit.figure))
