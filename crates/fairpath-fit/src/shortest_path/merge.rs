@@ -6,7 +6,8 @@
 //! them.
 
 use super::chain::{Chain, HEADING, KAPPA0, KAPPA1, Measured, Q, end};
-use super::recursion::{CLOSED, Closure, GAP_SCALE, Held, OPEN, backward, forward, gap_before};
+use super::closing::Closure;
+use super::recursion::{CLOSED, GAP_SCALE, Held, OPEN, backward, forward, gap_before};
 use fairpath_curve::Kind;
 use std::f64::consts::TAU;
 

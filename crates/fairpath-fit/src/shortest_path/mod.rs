@@ -4,6 +4,7 @@ mod a_star;
 mod candidates;
 pub(crate) mod chain;
 pub(crate) mod circle;
+mod closing;
 mod controls;
 mod cycle;
 mod distances;

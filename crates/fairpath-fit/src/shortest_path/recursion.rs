@@ -8,14 +8,14 @@
 //! A closed chain adds four equations, that the last end is the first start; one whose end is held adds as many, that it is there. They are
 //! carried through the recursion with the first state and their multipliers as parameters. A held start is no unknown at all.
 
-use super::chain::{Chain, HEADING, KAPPA0, KAPPA1, Measured, Piece, PieceNormal, Q, end, end_with_jacobian};
+use super::chain::{Chain, KAPPA0, KAPPA1, Measured, Piece, PieceNormal, Q, end, end_with_jacobian};
+use super::closing::Closure;
 use super::controls::{Role, control_bounds, first_bounds, reach, roles};
 use crate::linear::{cholesky, solve, solve_lower, solve_upper};
-use fairpath_curve::{Continuity, Kind};
-use std::f64::consts::TAU;
+use fairpath_curve::Kind;
 
 /// Numbers in a state.
-const STATE: usize = 4;
+pub(super) const STATE: usize = 4;
 /// State and parameters of a chain whose end is free, and of one that is closed or held there; the latter carries the first state and the
 /// multipliers of closure.
 pub(crate) const OPEN: usize = STATE;
@@ -55,60 +55,6 @@ pub(crate) fn gap_before(chain: &Chain, pieces: &[Piece], k: usize) -> [f64; 4] 
     std::array::from_fn(|i| if taken[i] == Role::State { arrived[i] - pieces[k].q[i] } else { 0.0 })
 }
 
-/// The equations that close a chain, or hold its end.
-pub(crate) struct Closure {
-    /// How many of x, y, heading and curvature must agree.
-    pub(crate) count: usize,
-    /// What the last heading exceeds the first, or the held one, by: whole turns.
-    turns: f64,
-    /// The pose at which the end is held; else the chain must return to its start.
-    held: Option<[f64; STATE]>,
-}
-
-impl Closure {
-    pub(crate) fn of(chain: &Chain) -> Self {
-        let n = chain.pieces.len();
-        if let Some(pin) = chain.held[1] {
-            // A line's curvature is zero anyway.
-            let known = pin.count > KAPPA0 && chain.pieces[n - 1].kind == Kind::Line;
-            let turned = end(&chain.pieces[n - 1].q)[HEADING] - pin.pose[HEADING];
-            let turns = TAU * (turned / TAU + 0.5).floor();
-            return Self { count: pin.count - usize::from(known), turns, held: Some(pin.pose) };
-        }
-        if !chain.closed {
-            return Self { count: 0, turns: 0.0, held: None };
-        }
-        let straight = chain.pieces[0].kind == Kind::Line || chain.pieces[n - 1].kind == Kind::Line;
-        let count = match chain.joins[n - 1] {
-            Continuity::G0 => 2,
-            Continuity::G1 => 3,
-            Continuity::G2 | Continuity::G3 => 4 - usize::from(straight),
-        };
-        let turned = end(&chain.pieces[n - 1].q)[HEADING] - chain.pieces[0].q[HEADING];
-        Self { count, turns: TAU * (turned / TAU + 0.5).floor(), held: None }
-    }
-
-    fn gap(&self, pieces: &[Piece]) -> [f64; 4] {
-        let last = end(&pieces[pieces.len() - 1].q);
-        let mut gap = [0.0; 4];
-        for i in 0..self.count {
-            gap[i] = last[i] - self.held.map_or(pieces[0].q[i], |pose| pose[i]);
-        }
-        if self.count > HEADING {
-            gap[HEADING] -= self.turns;
-        }
-        gap
-    }
-
-    /// Weighted sum of the magnitudes of what is open.
-    pub(crate) fn misfit(&self, pieces: &[Piece]) -> f64 {
-        if self.count == 0 {
-            return 0.0;
-        }
-        self.gap(pieces).iter().zip(GAP_SCALE).map(|(g, w)| g.abs() * w).sum()
-    }
-}
-
 /// What a backward pass decides.
 pub(crate) struct Plan<const Z: usize> {
     laws: Vec<Law<Z>>,
@@ -144,7 +90,7 @@ pub(crate) fn backward<const Z: usize>(
             let w = GAP_STIFFNESS * GAP_SCALE[i] * GAP_SCALE[i];
             value.h[i][i] += w;
             value.g[i] += w * gap[i];
-            if closure.held.is_some() {
+            if closure.is_held() {
                 continue;
             }
             value.h[4 + i][l] = -1.0;
