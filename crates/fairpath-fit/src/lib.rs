@@ -74,5 +74,5 @@ pub fn fit_observed(
 /// # Errors
 /// As [`fit`].
 pub fn fit_curvature_space(stroke: &Stroke, options: &CurvatureSpaceOptions) -> Result<Fit, FitError> {
-    curvature_space::fit(stroke, options)
+    curvature_space::fit(stroke, options, &mut ())
 }

@@ -51,6 +51,27 @@ pub struct CurvatureSpaceOptions {
     /// dense the points lie: it is the paper's value times their distance.
     #[schemars(extend("unit" = "radians"))]
     pub piece_cost: f64,
+    /// Whether the pieces are improved once they follow the points: those that need not be clothoids become arcs and lines, two become one,
+    /// one becomes two, and inflections that nobody drew are taken out, as far as the costs below welcome it (beyond the paper; mode refined).
+    pub simplify: bool,
+    /// Cost of a line; null forbids lines.
+    #[schemars(extend("unit" = "cost"))]
+    pub line_cost: Option<f64>,
+    /// Cost of an arc; null forbids arcs.
+    #[schemars(extend("unit" = "cost"))]
+    pub arc_cost: Option<f64>,
+    /// Cost of a clothoid.
+    #[schemars(extend("unit" = "cost"))]
+    pub clothoid_cost: f64,
+    /// Cost of an inflection.
+    #[schemars(extend("unit" = "cost"))]
+    pub inflection_cost: f64,
+    /// Cost of deviation, times the square of what exceeds `free_share`, as a share of `target_error`, or of `max_error` where that is null.
+    #[schemars(extend("unit" = "cost"))]
+    pub error_cost: f64,
+    /// Deviation that costs nothing, as a share of the same; on strokes of less than 100 px proportionally less.
+    #[schemars(extend("unit" = "1"))]
+    pub free_share: f64,
     /// Weight of ends and corners relative to other points when the curve is laid over the stroke (section 4.4).
     #[schemars(extend("unit" = "1"))]
     pub end_weight: f64,
@@ -72,6 +93,13 @@ impl Default for CurvatureSpaceOptions {
             curvature_window: 15.0,
             spacing: 4.0,
             piece_cost: 0.2,
+            simplify: true,
+            line_cost: shared.line_cost,
+            arc_cost: shared.arc_cost,
+            clothoid_cost: 15.0,
+            inflection_cost: shared.inflection_cost,
+            error_cost: 125.0,
+            free_share: 0.26,
             end_weight: 2.0,
             target_error: Some(5.0),
             max_error: shared.max_error,
@@ -90,6 +118,12 @@ impl CurvatureSpaceOptions {
         let rules = [
             ("spacing", self.spacing, 0.25, 1e6, "0.25 to 1e6 px"),
             ("piece_cost", self.piece_cost, 1e-9, 1e9, "1e-9 to 1e9 radians"),
+            ("line_cost", self.line_cost.unwrap_or(0.0), 0.0, 1e9, "0 to 1e9, or null to forbid"),
+            ("arc_cost", self.arc_cost.unwrap_or(0.0), 0.0, 1e9, "0 to 1e9, or null to forbid"),
+            ("clothoid_cost", self.clothoid_cost, 0.0, 1e9, "0 to 1e9"),
+            ("inflection_cost", self.inflection_cost, 0.0, 1e9, "0 to 1e9"),
+            ("error_cost", self.error_cost, 0.0, 1e9, "0 to 1e9"),
+            ("free_share", self.free_share, 0.0, 1.0, "0 to 1"),
             ("end_weight", self.end_weight, 0.01, 1e4, "0.01 to 1e4"),
             ("target_error", self.target_error.unwrap_or(1.0), 1e-3, 1e4, "0.001 to 1e4 px, or null"),
         ];
@@ -107,6 +141,24 @@ impl CurvatureSpaceOptions {
             curvature_window: self.curvature_window,
             max_error: self.max_error,
             ..self.stroke.of_shortest_path()
+        }
+    }
+
+    /// The costs by which pieces of a stroke of given length in px are judged.
+    pub(crate) fn costs(&self, length: f64) -> FitOptions {
+        let scale = self.target_error.unwrap_or(self.max_error);
+        let shared = self.shared();
+        FitOptions {
+            line_cost: self.line_cost,
+            arc_cost: self.arc_cost,
+            clothoid_cost: Some(self.clothoid_cost),
+            inflection_cost: self.inflection_cost,
+            error_cost: self.error_cost / (scale * scale),
+            free_error: (self.free_share * scale).min(shared.free_share * length),
+            // Beyond it the farthest point counts, not the mean.
+            max_error: scale,
+            end_factor: self.end_weight,
+            ..shared
         }
     }
 }

@@ -10,7 +10,7 @@ mod distances;
 mod graph;
 pub(crate) mod merge;
 mod recursion;
-mod refine;
+pub(crate) mod refine;
 mod search;
 mod transition;
 
