@@ -1,7 +1,8 @@
 //! Fair curves from rough strokes: points in, a [`fairpath_curve::Spline`] of lines, arcs and clothoids with exact joins out, by the
 //! shortest-path method of Baran, Lehtinen and Popović (2010) or in curvature space after McCrae and Singh (2008).
 //!
-//! - Fit a stroke: [`fit`]; in curvature space: [`fit_curvature_space`]. Watch its steps or keep every intermediate result: [`fit_observed`].
+//! - Fit a stroke: [`fit`]; in curvature space: [`fit_curvature_space`]. Watch its steps or keep every intermediate result: [`fit_observed`],
+//!   [`fit_curvature_space_observed`].
 //! - Choose between fewer segments and less deviation: [`FitOptions::preset`], [`Preset`].
 //!
 //! ```
@@ -34,7 +35,7 @@ mod stroke_options;
 mod track;
 mod walk;
 
-pub use curvature_space::{CurvatureEstimate, CurvatureSpaceOptions, Mode};
+pub use curvature_space::{CurvatureEstimate, CurvaturePlace, CurvatureSpaceOptions, CurvatureStages, Mode};
 pub use french_curve::{Template, TemplateError, TemplatePiece, TemplateSet};
 pub use options::{ClosedSearch, Closing, Deviation, FitOptions, Preset, Resampling, Search, Transitions};
 pub use result::{Candidate, Fit, FitError, Observer, Report, Stages, Step, Warning};
@@ -74,5 +75,22 @@ pub fn fit_observed(
 /// # Errors
 /// As [`fit`].
 pub fn fit_curvature_space(stroke: &Stroke, options: &CurvatureSpaceOptions) -> Result<Fit, FitError> {
-    curvature_space::fit(stroke, options, &mut ())
+    fit_curvature_space_observed(stroke, options, &mut (), None)
+}
+
+/// As [`fit_curvature_space`], telling `observer` of each step and leaving every intermediate result in `stages`, if given.
+///
+/// Of the steps, [`Step::Candidates`] is the estimate of curvature (section 4.1), [`Step::Search`] its segmentation (4.2) and
+/// [`Step::Merge`] everything that lays the pieces over the stroke or fits them to it; there is no graph. Search and merge come anew with every
+/// lower cost that is tried.
+///
+/// # Errors
+/// As [`fit`].
+pub fn fit_curvature_space_observed(
+    stroke: &Stroke,
+    options: &CurvatureSpaceOptions,
+    observer: &mut dyn Observer,
+    stages: Option<&mut CurvatureStages>,
+) -> Result<Fit, FitError> {
+    curvature_space::fit(stroke, options, observer, stages)
 }

@@ -17,8 +17,8 @@ pub(crate) struct Place {
     pub(crate) weight: f64,
 }
 
-/// Most places on a stretch: choosing breaks takes time with the cube of their number.
-const MOST: f64 = 500.0;
+/// Most places on a stretch: where it is all one line, choosing breaks takes time with the square of their number.
+const MOST: f64 = 4000.0;
 
 /// Curvature beyond this is noise or a cusp, radians per px.
 const LARGEST: f64 = 0.5;

@@ -3,6 +3,7 @@
 use super::estimate::{Place, curvature};
 use super::options::CurvatureSpaceOptions;
 use crate::clean::Cleaned;
+use crate::options::FitOptions;
 use crate::polyline::Polyline;
 use crate::track::{Course, Shape, Track, prepare};
 use crate::walk::Datum;
@@ -22,8 +23,8 @@ pub(crate) struct Stretch {
 
 impl Ground {
     /// Cleaned points closed, divided at corners and resampled, as for the shortest-path method.
-    pub(crate) fn track(cleaned: &Cleaned, options: &CurvatureSpaceOptions) -> Track {
-        prepare(cleaned, &options.shared())
+    pub(crate) fn track(cleaned: &Cleaned, shared: &FitOptions) -> Track {
+        prepare(cleaned, shared)
     }
 
     /// Curvature along a track (section 4.1).
@@ -50,6 +51,14 @@ impl Ground {
         Self { track, stretches }
     }
 
+    pub(crate) fn is_ring(&self) -> bool {
+        self.track.shape == Shape::Ring
+    }
+
+    pub(crate) fn is_closed(&self) -> bool {
+        self.track.shape != Shape::Open
+    }
+
     /// Length of the stroke, or of one turn of a ring, px.
     pub(crate) fn length(&self) -> f64 {
         self.track.all.station(self.track.turn)
@@ -60,7 +69,11 @@ impl Ground {
 /// the first once more.
 pub(crate) fn run<'a>(track: &Track, course: &'a Course, from: f64) -> &'a [Datum] {
     let count = course.samples[track.turn] - course.samples[0];
-    let first = course.data.partition_point(|d| d.s < from - 1e-9);
+    let mut first = course.data.partition_point(|d| d.s < from - 1e-9);
+    // The turns of a ring are alike.
+    while first + count >= course.data.len() && first >= count {
+        first -= count;
+    }
     &course.data[first..=first + count]
 }
 

@@ -1,5 +1,6 @@
 //! Everything that can be set about fitting in curvature space.
 
+use super::blend::Blend;
 use crate::options::FitOptions;
 use crate::result::FitError;
 use crate::stroke_options::StrokeOptions;
@@ -75,6 +76,14 @@ pub struct CurvatureSpaceOptions {
     /// Weight of ends and corners relative to other points when the curve is laid over the stroke (section 4.4).
     #[schemars(extend("unit" = "1"))]
     pub end_weight: f64,
+    /// Half the width of the window in which a knot of curvature is rounded off (section 5.2), at most 0.45 of the pieces beside it; 0 leaves
+    /// the knots as they are. A refined curve is moved by no more than 0.2 px thereby.
+    #[schemars(extend("unit" = "px"))]
+    pub blend: f64,
+    /// Pieces of such a window, an even number: at each join the slope of curvature changes by so great a part of what it changed by
+    /// at the knot.
+    #[schemars(extend("unit" = "1"))]
+    pub blend_pieces: usize,
     /// Largest deviation to be reached by lowering `piece_cost` as long as that helps (section 6); null leaves the cost as it is.
     #[schemars(extend("unit" = "px"))]
     pub target_error: Option<f64>,
@@ -91,7 +100,7 @@ impl Default for CurvatureSpaceOptions {
             mode: Mode::Refined,
             curvature: CurvatureEstimate::Circle,
             curvature_window: 15.0,
-            spacing: 4.0,
+            spacing: 6.0,
             piece_cost: 0.2,
             simplify: true,
             line_cost: shared.line_cost,
@@ -101,6 +110,8 @@ impl Default for CurvatureSpaceOptions {
             error_cost: 125.0,
             free_share: 0.26,
             end_weight: 2.0,
+            blend: 0.0,
+            blend_pieces: 8,
             target_error: Some(5.0),
             max_error: shared.max_error,
         }
@@ -125,12 +136,17 @@ impl CurvatureSpaceOptions {
             ("error_cost", self.error_cost, 0.0, 1e9, "0 to 1e9"),
             ("free_share", self.free_share, 0.0, 1.0, "0 to 1"),
             ("end_weight", self.end_weight, 0.01, 1e4, "0.01 to 1e4"),
+            ("blend", self.blend, 0.0, 1e6, "0 to 1e6 px"),
             ("target_error", self.target_error.unwrap_or(1.0), 1e-3, 1e4, "0.001 to 1e4 px, or null"),
         ];
         for (name, value, low, high, expected) in rules {
             if !(low..=high).contains(&value) {
                 return Err(FitError::BadOption { name, value, expected });
             }
+        }
+        if !(2..=64).contains(&self.blend_pieces) || !self.blend_pieces.is_multiple_of(2) {
+            let (name, expected) = ("blend_pieces", "an even number from 2 to 64");
+            return Err(FitError::BadOption { name, value: self.blend_pieces as f64, expected });
         }
         Ok(())
     }
@@ -141,6 +157,21 @@ impl CurvatureSpaceOptions {
             curvature_window: self.curvature_window,
             max_error: self.max_error,
             ..self.stroke.of_shortest_path()
+        }
+    }
+
+    /// How knots are rounded off, if they are.
+    pub(crate) fn blending(&self) -> Option<Blend> {
+        (self.blend > 0.0).then_some(Blend { half_width: self.blend, steps: self.blend_pieces })
+    }
+
+    /// The same, for a curve that stays closer to its stroke.
+    pub(crate) fn closer(&self) -> Self {
+        Self {
+            piece_cost: 0.25 * self.piece_cost,
+            inflection_cost: 0.25 * self.inflection_cost,
+            error_cost: 4.0 * self.error_cost,
+            ..self.clone()
         }
     }
 

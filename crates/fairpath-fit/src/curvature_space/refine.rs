@@ -12,7 +12,7 @@ use super::options::CurvatureSpaceOptions;
 use crate::conclude::Parts;
 use crate::polyline::Polyline;
 use crate::primitive_fit;
-use crate::shortest_path::chain::{Chain, Measured, Piece, Shortness};
+use crate::shortest_path::chain::{Chain, LENGTH, Measured, Piece, Shortness};
 use crate::shortest_path::circle::circle;
 use crate::shortest_path::merge::{Effort, merge};
 use crate::shortest_path::refine::{refine, total};
@@ -40,7 +40,7 @@ impl Run {
     /// The pieces of a profile, each on its own part of the stroke: the chain is then brought together along the stroke instead of from where
     /// it drifted.
     pub(crate) fn of(profile: &Profile, ground: &Ground) -> Self {
-        let begin = if ground.track.shape == Shape::Ring { profile.knots[0] } else { 0.0 };
+        let begin = if ground.is_ring() { profile.knots[0] } else { 0.0 };
         let data = run(&ground.track, &ground.track.coarse, begin);
         let line = polyline_of(data);
         let pieces: Vec<Piece> = scattered(profile, &line)
@@ -98,7 +98,7 @@ pub(crate) struct Refined {
 /// The curve of runs of pieces, one for each stretch, that follows the points best, with G2 joins within a run and corners between. Nothing
 /// where no such chain was found.
 pub(crate) fn refined(runs: &[Run], ground: &Ground, options: &CurvatureSpaceOptions) -> Option<Refined> {
-    let shape = ground.track.shape;
+    let ring = ground.is_ring();
     let costs = options.costs(ground.length());
     // Chosen by the coarse points, fitted to all.
     let mut coarse = chain(runs, ground, &ground.track.coarse, options);
@@ -106,12 +106,13 @@ pub(crate) fn refined(runs: &[Run], ground: &Ground, options: &CurvatureSpaceOpt
     if options.simplify {
         let mut measured = merge(&mut coarse, JOIN)?;
         measured = refine(&mut coarse, measured, &costs, FINAL)?;
-        if shape == Shape::Ring {
+        if ring {
             // What lies at the seam is looked at from the other side.
-            let (other, from) = half_round(&coarse, &measured, &ground.track.coarse, begin)?;
-            (coarse, begin) = (other, from);
-            measured = merge(&mut coarse, FINAL)?;
-            measured = refine(&mut coarse, measured, &costs, FINAL)?;
+            if let Some((other, from)) = half_round(&coarse, &measured, ground, begin) {
+                (coarse, begin) = (other, from);
+                measured = merge(&mut coarse, FINAL)?;
+                measured = refine(&mut coarse, measured, &costs, FINAL)?;
+            }
         }
         straighten(&mut coarse, measured, &costs, FINAL)?;
     }
@@ -119,18 +120,27 @@ pub(crate) fn refined(runs: &[Run], ground: &Ground, options: &CurvatureSpaceOpt
     let line = polyline_of(all);
     let at = |i: &usize| line.s.partition_point(|&s| s < coarse.data[*i].s - 1e-9);
     let corners = coarse.corners.iter().map(at).collect();
-    let data = &all[..all.len() - usize::from(shape == Shape::Ring)];
+    let data = &all[..all.len() - usize::from(ring)];
     let mut chain = Chain { data, corners, ..coarse };
     let measured = merge(&mut chain, FINAL)?;
-    if shape == Shape::Ring
+    if ring
         && let Some(found) = circle(&ground.track, &costs)
         && found.cost <= total(&chain, &measured, &costs)
     {
         let runs = vec![Run { pieces: chain.pieces, joins: chain.joins, from: begin }];
         return Some(Refined { parts: (vec![found.arc], vec![Continuity::G3], true), runs, errors: vec![found.largest] });
     }
-    Some(concluded(chain, &measured, begin))
+    let mut refined = concluded(chain, &measured, begin);
+    // A loop that nobody drew shows in its length.
+    for ((run, stretch), error) in refined.runs.iter().zip(&ground.stretches).zip(&mut refined.errors) {
+        let length: f64 = run.pieces.iter().map(|p| p.q[LENGTH]).sum();
+        *error = error.max(0.5 * (length - LONGER * (stretch.span[1] - stretch.span[0])));
+    }
+    Some(refined)
 }
+
+/// A curve may be longer than its stroke by this factor: tips of corners that are drawn out add up.
+pub(super) const LONGER: f64 = 1.01;
 
 /// The runs as one chain along a course of the stroke's points.
 fn chain<'a>(runs: &[Run], ground: &Ground, course: &'a Course, options: &CurvatureSpaceOptions) -> Chain<'a> {
@@ -156,7 +166,7 @@ fn chain<'a>(runs: &[Run], ground: &Ground, course: &'a Course, options: &Curvat
         pieces,
         joins,
         // The last datum of a ring is its first.
-        data: &data[..data.len() - usize::from(shape == Shape::Ring)],
+        data: &data[..data.len() - usize::from(ground.is_ring())],
         corners,
         closed: shape != Shape::Open,
         end_factor: options.end_weight,
@@ -168,18 +178,19 @@ fn chain<'a>(runs: &[Run], ground: &Ground, course: &'a Course, options: &Curvat
 /// Short pieces resist shortening, with this energy for the square of what is missing, px: else distances alone could make them vanish.
 const SHORT: Shortness = Shortness { length: 40.0, stiffness: 0.25 };
 
-/// A ring's chain, which begins at arc length `from` of a course, begun half its pieces later, and where that is.
-fn half_round<'a>(chain: &Chain<'a>, measured: &Measured, course: &'a Course, from: f64) -> Option<(Chain<'a>, f64)> {
+/// A ring's chain, which begins at arc length `from` of its track, begun half its pieces later, and where that is.
+fn half_round<'a>(chain: &Chain<'a>, measured: &Measured, ground: &'a Ground, from: f64) -> Option<(Chain<'a>, f64)> {
     let half = chain.pieces.len() / 2;
     let (begin, end) = measured.normals[half].span;
     if begin >= end {
         return None;
     }
-    let first = course.data.partition_point(|d| d.s < from - 1e-9) + begin;
-    let mut chain = Chain { data: course.data.get(first..first + chain.data.len())?, ..chain.clone() };
+    let there = chain.data[begin].s + if chain.data[begin].s < from - 1e-9 { ground.length() } else { 0.0 };
+    let data = run(&ground.track, &ground.track.coarse, there);
+    let mut chain = Chain { data: &data[..chain.data.len()], ..chain.clone() };
     chain.pieces.rotate_left(half);
     chain.joins.rotate_left(half);
-    Some((chain, course.data[first].s))
+    Some((chain, data[0].s))
 }
 
 fn concluded(chain: Chain, measured: &Measured, begin: f64) -> Refined {
