@@ -61,14 +61,17 @@ impl Plan {
             let [previous, next] = [if k > 0 { k - 1 } else { last - 1 }, if k < last { k + 1 } else { 1 }];
             let d = half_width(blend, before, after);
             let half = blend.steps / 2;
-            let steps = if k == 0 { half..blend.steps + 1 } else if k == last { 0..half + 1 } else { 0..blend.steps + 1 };
+            let steps = if k == 0 {
+                half..blend.steps + 1
+            } else if k == last {
+                0..half + 1
+            } else {
+                0..blend.steps + 1
+            };
             for i in steps {
                 let u = i as f64 / blend.steps as f64;
                 let (fall, rise) = (d * (1.0 - u) * (1.0 - u) / before, d * u * u / after);
-                nodes.push(Node {
-                    s: s[k] + d * (2.0 * u - 1.0),
-                    shares: [(k, 1.0), (previous, fall), (next, rise)],
-                });
+                nodes.push(Node { s: s[k] + d * (2.0 * u - 1.0), shares: [(k, 1.0), (previous, fall), (next, rise)] });
             }
         }
         if !ring {

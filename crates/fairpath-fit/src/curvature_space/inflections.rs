@@ -15,12 +15,7 @@ const FLAT: f64 = 1e-9;
 const LONGEST: usize = 3;
 
 /// Tries each lobe of curvature once, those that turn least first; gives the measurement after.
-pub(crate) fn straighten(
-    chain: &mut Chain,
-    measured: Measured,
-    costs: &FitOptions,
-    last: Effort,
-) -> Option<Measured> {
+pub(crate) fn straighten(chain: &mut Chain, measured: Measured, costs: &FitOptions, last: Effort) -> Option<Measured> {
     let mut measured = measured;
     let before = total(chain, &measured, costs);
     let backup = chain.pieces.clone();
@@ -69,7 +64,15 @@ fn lobes(chain: &Chain, run: Range<usize>) -> Vec<Lobe> {
     let pieces = &chain.pieces;
     let knots = run.start..run.end + 1;
     let kappa = |k: usize| if k < run.end { pieces[k].q[KAPPA0] } else { pieces[k - 1].q[KAPPA1] };
-    let sign = |k: usize| if kappa(k) > FLAT { 1 } else if kappa(k) < -FLAT { -1 } else { 0_i8 };
+    let sign = |k: usize| {
+        if kappa(k) > FLAT {
+            1
+        } else if kappa(k) < -FLAT {
+            -1
+        } else {
+            0_i8
+        }
+    };
     let mut out = Vec::new();
     let mut k = knots.start;
     while k < knots.end {

@@ -154,7 +154,8 @@ fn warnings_if_far(off: f64, astray: f64, options: &CurvatureSpaceOptions) -> Ve
         out.push(told("target-missed", format!("the curve is up to {off:.3} off, more than {target:.3}")));
     }
     if off > options.max_error * px || astray > STRAY * options.max_error * px {
-        let text = format!("the curve is up to {off:.3} away from the stroke, or longer by {:.3}", 2.0 * (astray - off));
+        let text =
+            format!("the curve is up to {off:.3} away from the stroke, or longer by {:.3}", 2.0 * (astray - off));
         let text = if astray > off { text } else { format!("the curve is up to {off:.3} away from the stroke") };
         out.push(told("far-from-stroke", text));
     }
@@ -282,8 +283,7 @@ fn limbs(profiles: &[&Profile], ground: &Ground, options: &CurvatureSpaceOptions
 }
 
 fn largest_distance(limb: &[Segment], run: &[Datum]) -> f64 {
-    let distance = |d: &Datum| {
-        limb.iter().map(|s| s.nearest(d.point.to_point()).distance).fold(f64::INFINITY, f64::min)
-    };
+    let distance =
+        |d: &Datum| limb.iter().map(|s| s.nearest(d.point.to_point()).distance).fold(f64::INFINITY, f64::min);
     run.iter().map(distance).fold(0.0, f64::max)
 }

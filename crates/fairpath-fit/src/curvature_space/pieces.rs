@@ -37,8 +37,9 @@ pub(crate) fn linear_pieces(stretch: &Stretch, shape: Shape, piece_cost: f64) ->
     (Profile { knots, kappas }, cost)
 }
 
-/// A smoothly closed curve that is no circle has four vertices, extremes of its curvature, and linear pieces between them.
-const RING_PIECES: usize = 4;
+/// A smoothly closed curve that is no circle has four vertices, extremes of its curvature. With two linear pieces between neighbours there are
+/// enough to be fitted well; those too many are united again where pieces may be.
+const RING_PIECES: usize = 8;
 
 /// Halves the longest pieces until there are so many.
 fn divide(knots: &mut Vec<f64>, pieces: usize) {

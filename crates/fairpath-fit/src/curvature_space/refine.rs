@@ -128,7 +128,11 @@ pub(crate) fn refined(runs: &[Run], ground: &Ground, options: &CurvatureSpaceOpt
         && found.cost <= total(&chain, &measured, &costs)
     {
         let runs = vec![Run { pieces: chain.pieces, joins: chain.joins, from: begin }];
-        return Some(Refined { parts: (vec![found.arc], vec![Continuity::G3], true), runs, errors: vec![found.largest] });
+        return Some(Refined {
+            parts: (vec![found.arc], vec![Continuity::G3], true),
+            runs,
+            errors: vec![found.largest],
+        });
     }
     let mut refined = concluded(chain, &measured, begin);
     // A loop that nobody drew shows in its length.

@@ -36,7 +36,8 @@ impl CurvatureStages {
     pub(super) fn of(ground: &Ground, profiles: &[&Profile], laid: &[Segment], cleaned: &Cleaned) -> Self {
         let ring = ground.is_ring();
         let begin = profiles[0].knots[0];
-        let place = |s: f64, kappa: f64| CurvaturePlace { s: (s - begin) * cleaned.scale, kappa: kappa / cleaned.scale };
+        let place =
+            |s: f64, kappa: f64| CurvaturePlace { s: (s - begin) * cleaned.scale, kappa: kappa / cleaned.scale };
         let length = ground.length();
         let places = |stretch: &super::ground::Stretch| {
             let mut out: Vec<CurvaturePlace> = stretch

@@ -3,12 +3,14 @@
 //! A picture is made of shapes only, lettering included, and so looks the same on a machine without fonts. Its page is measured in
 //! px; the drawing is moved to the page in f64 before anything is rounded, so that far-away coordinates lose nothing.
 
+mod curvature_stages;
 mod drawing;
 mod lettering;
 mod page;
 mod sheet;
 mod stages;
 
+pub use curvature_stages::draw_curvature_stages;
 pub use drawing::draw_splines;
 pub use page::Picture;
 pub use stages::{StagePicture, draw_stages};

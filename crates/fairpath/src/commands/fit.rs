@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use anyhow::{Context, Result, bail};
-use fairpath_fit::{Preset, Stages};
+use fairpath_fit::Preset;
 use fairpath_io::{Failure, SplineEntry, SplineFile};
 use rayon::prelude::*;
 
@@ -84,9 +84,6 @@ fn check_combination(args: &FitArgs, output: Option<&Destination>, picture: Opti
             bail!("{}: -o and --picture name the same file", to.path.display());
         }
     }
-    if args.stages.is_some() && args.method != Method::ShortestPath {
-        bail!("--stages: only the steps of the method shortest-path can be drawn");
-    }
     if args.preset != Preset::Default && args.method != Method::ShortestPath {
         bail!("--preset {}: the method {} has no presets", preset_name(args.preset), args.method.name());
     }
@@ -119,25 +116,24 @@ fn fit_all(jobs: &[Job<'_>], inputs: &Inputs, args: &FitArgs) -> Result<Vec<Outc
 
 fn fit_one(job: &Job<'_>, inputs: &Inputs, args: &FitArgs) -> Outcome {
     let name = job.stroke.name.as_str();
-    let mut stages = args.stages.is_some().then(Stages::default);
+    let draw = args.stages.is_some().then_some(inputs.file.y);
     // The fitter does not panic on data; should it all the same, the other strokes are still worth having.
     let fitted = catch_unwind(AssertUnwindSafe(|| {
         let mut watch = Stopwatch::start();
-        let fit = job.options.fit(job.stroke, &mut watch, stages.as_mut());
+        let fit = job.options.fit(job.stroke, &mut watch, draw);
         (fit, watch.stop())
     }));
     let failed = |failure| Outcome { result: Err(failure), steps: Vec::new() };
-    let (fit, ms) = match fitted {
-        Ok((Ok(fit), ms)) => (fit, ms),
+    let ((fit, steps), ms) = match fitted {
+        Ok((Ok(drawn), ms)) => (drawn, ms),
         Ok((Err(error), _)) => return failed(Failure::from_error(name, &error)),
         Err(_) => {
             let text = "the fitter broke down on this stroke, which is a mistake of ours: please report it";
             return failed(Failure { name: name.into(), code: "internal".into(), text: text.into() });
         }
     };
-    let steps = stages.map(|stages| pictures::steps(job.stroke, &stages, &fit.spline, inputs.file.y));
     let entry = SplineEntry::from_fit(name, args.method.name(), fit, (!args.no_times).then_some(ms));
-    Outcome { result: Ok(entry), steps: steps.unwrap_or_default() }
+    Outcome { result: Ok(entry), steps }
 }
 
 /// All outcomes as one file; the pictures of the steps are made ready to be written.

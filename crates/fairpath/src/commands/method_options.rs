@@ -5,9 +5,10 @@ use std::sync::Arc;
 
 use anyhow::{Result, bail};
 use fairpath_fit::{
-    Closing, CurvatureSpaceOptions, Fit, FitError, FitOptions, Observer, Stages, Stroke, fit_curvature_space,
-    fit_observed,
+    Closing, CurvatureSpaceOptions, CurvatureStages, Fit, FitError, FitOptions, Observer, Stages, Stroke,
+    fit_curvature_space_observed, fit_observed,
 };
+use fairpath_io::YAxis;
 use schemars::JsonSchema;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -15,6 +16,10 @@ use serde_json::Value;
 
 use crate::args::{FitArgs, Method};
 use crate::parameters::{self, Parameter};
+use crate::pictures;
+
+/// A fit, and pictures of its steps: a word for each and its SVG.
+pub(crate) type Drawn = (Fit, Vec<(String, Vec<u8>)>);
 
 /// What the command line must know of the options of a method; a method more is an implementation more.
 trait Options: JsonSchema + Serialize + DeserializeOwned + Default + Clone + Debug + Send + Sync + 'static {
@@ -24,13 +29,13 @@ trait Options: JsonSchema + Serialize + DeserializeOwned + Default + Clone + Deb
     /// Distance from its stroke that a curve should keep, in the stroke's unit; infinite for a method that keeps none.
     fn largest_deviation(&self) -> f64;
 
-    /// Fits a stroke. Only the method of shortest paths has stages, and only it tells `observer` of its steps.
+    /// Fits a stroke, telling `observer` of the steps; and draws them, if asked to.
     fn fit(
         &self,
         stroke: &Stroke,
         observer: &mut dyn Observer,
-        stages: Option<&mut Stages>,
-    ) -> std::result::Result<Fit, FitError>;
+        draw: Option<YAxis>,
+    ) -> std::result::Result<Drawn, FitError>;
 }
 
 impl Options for FitOptions {
@@ -46,9 +51,12 @@ impl Options for FitOptions {
         &self,
         stroke: &Stroke,
         observer: &mut dyn Observer,
-        stages: Option<&mut Stages>,
-    ) -> std::result::Result<Fit, FitError> {
-        fit_observed(stroke, self, observer, stages)
+        draw: Option<YAxis>,
+    ) -> std::result::Result<Drawn, FitError> {
+        let mut stages = draw.map(|_| Stages::default());
+        let fit = fit_observed(stroke, self, observer, stages.as_mut())?;
+        let pictures = draw.zip(stages).map(|(y, stages)| pictures::steps(stroke, &stages, &fit.spline, y));
+        Ok((fit, pictures.unwrap_or_default()))
     }
 }
 
@@ -64,10 +72,13 @@ impl Options for CurvatureSpaceOptions {
     fn fit(
         &self,
         stroke: &Stroke,
-        _observer: &mut dyn Observer,
-        _stages: Option<&mut Stages>,
-    ) -> std::result::Result<Fit, FitError> {
-        fit_curvature_space(stroke, self)
+        observer: &mut dyn Observer,
+        draw: Option<YAxis>,
+    ) -> std::result::Result<Drawn, FitError> {
+        let mut stages = draw.map(|_| CurvatureStages::default());
+        let fit = fit_curvature_space_observed(stroke, self, observer, stages.as_mut())?;
+        let pictures = draw.zip(stages).map(|(y, stages)| pictures::curvature_steps(stroke, &stages, &fit.spline, y));
+        Ok((fit, pictures.unwrap_or_default()))
     }
 }
 
@@ -78,8 +89,8 @@ trait Chosen: Debug + Send + Sync {
         &self,
         stroke: &Stroke,
         observer: &mut dyn Observer,
-        stages: Option<&mut Stages>,
-    ) -> std::result::Result<Fit, FitError>;
+        draw: Option<YAxis>,
+    ) -> std::result::Result<Drawn, FitError>;
     fn listed(&self) -> (Vec<Parameter>, Value);
 }
 
@@ -92,9 +103,9 @@ impl<T: Options> Chosen for T {
         &self,
         stroke: &Stroke,
         observer: &mut dyn Observer,
-        stages: Option<&mut Stages>,
-    ) -> std::result::Result<Fit, FitError> {
-        Options::fit(self, stroke, observer, stages)
+        draw: Option<YAxis>,
+    ) -> std::result::Result<Drawn, FitError> {
+        Options::fit(self, stroke, observer, draw)
     }
 
     fn listed(&self) -> (Vec<Parameter>, Value) {
@@ -130,7 +141,7 @@ impl MethodOptions {
         }
     }
 
-    /// Fits a stroke. Only the method of shortest paths has stages, and only it tells `observer` of its steps.
+    /// Fits a stroke, telling `observer` of the steps; and draws them, if asked to.
     ///
     /// # Errors
     /// As the method.
@@ -138,9 +149,9 @@ impl MethodOptions {
         &self,
         stroke: &Stroke,
         observer: &mut dyn Observer,
-        stages: Option<&mut Stages>,
-    ) -> std::result::Result<Fit, FitError> {
-        self.0.fit(stroke, observer, stages)
+        draw: Option<YAxis>,
+    ) -> std::result::Result<Drawn, FitError> {
+        self.0.fit(stroke, observer, draw)
     }
 
     /// Distance from its stroke that a curve should keep, in the stroke's unit.
