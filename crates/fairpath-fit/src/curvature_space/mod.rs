@@ -27,7 +27,8 @@ use crate::walk::Datum;
 use blend::{blended, rounded};
 use compose::{Profile, placed};
 use fairpath_curve::{Continuity, Point, Segment, Vec2};
-use ground::{Ground, run};
+use ground::{Ground, Stretch, run};
+use pieces::{RING_PIECES, linear_pieces};
 use refine::{LONGER, Refined, Run, refined};
 
 /// Fits a stroke.
@@ -224,26 +225,37 @@ fn attempt(
             options.mode == Mode::Refined && found.refined && found.errors.get(j).is_some_and(|e| e <= target)
         })
     };
-    observer.step(Step::Search);
-    let profiles: Vec<(Profile, f64)> = ground
-        .stretches
-        .iter()
-        .zip(costs)
-        .enumerate()
-        .map(|(j, (stretch, cost))| match kept(j) {
+    let segmented = |at_least: usize| -> Vec<(Profile, f64)> {
+        let stretches = ground.stretches.iter().zip(costs).enumerate();
+        let profile = |(j, (stretch, cost)): (usize, (&Stretch, &f64))| match kept(j) {
             Some((found, _)) => found.profiles[j].clone(),
-            None => pieces::linear_pieces(stretch, ground.track.shape, *cost),
-        })
-        .collect();
-    observer.step(Step::Merge);
+            None => linear_pieces(stretch, ground.track.shape, *cost, at_least),
+        };
+        stretches.map(profile).collect()
+    };
+    let mut best: Option<(Vec<(Profile, f64)>, Refined)> = None;
     if options.mode == Mode::Refined {
-        let runs: Vec<Run> = (0..profiles.len())
-            .map(|j| kept(j).map_or_else(|| Run::of(&profiles[j].0, ground), |(found, _)| found.runs[j].clone()))
-            .collect();
-        if let Some(Refined { parts, runs, errors }) = refined(&runs, ground, options) {
-            return Found { parts, profiles, refined: true, errors, runs };
+        let tries = if ground.is_ring() { &RING_PIECES[..] } else { &RING_PIECES[..1] };
+        for &at_least in tries {
+            observer.step(Step::Search);
+            let profiles = segmented(at_least);
+            observer.step(Step::Merge);
+            let run =
+                |j: usize| kept(j).map_or_else(|| Run::of(&profiles[j].0, ground), |(found, _)| found.runs[j].clone());
+            let runs: Vec<Run> = (0..profiles.len()).map(run).collect();
+            if let Some(refined) = refined(&runs, ground, options)
+                && best.as_ref().is_none_or(|b| refined.cost < b.1.cost)
+            {
+                best = Some((profiles, refined));
+            }
         }
     }
+    if let Some((profiles, Refined { parts, runs, errors, .. })) = best {
+        return Found { parts, profiles, refined: true, errors, runs };
+    }
+    observer.step(Step::Search);
+    let profiles = segmented(RING_PIECES[0]);
+    observer.step(Step::Merge);
     let (parts, errors) = limbs(&profiles.iter().map(|p| &p.0).collect::<Vec<_>>(), ground, options);
     Found { parts, profiles, refined: false, errors, runs: Vec::new() }
 }

@@ -152,9 +152,14 @@ fn result(page: &mut Page, axes: &Axes, pen: Pen, stages: &CurvatureStages, spli
     let mut path = BezPath::new();
     let mut s = -begin;
     for segment in spline.segments() {
-        let from = if s + 0.5 * segment.length < 0.0 { s + whole } else { s };
-        path.move_to(axes.at(from * stretch, segment.kappa0));
-        path.line_to(axes.at((from + segment.length) * stretch, segment.kappa1));
+        // What runs through the beginning of the plot goes on at its end.
+        let cut = (-s).clamp(0.0, segment.length);
+        for (from, to, shift) in [(0.0, cut, whole), (cut, segment.length, 0.0)] {
+            if to > from {
+                path.move_to(axes.at((s + from + shift) * stretch, segment.curvature_at(from)));
+                path.line_to(axes.at((s + to + shift) * stretch, segment.curvature_at(to)));
+            }
+        }
         s += segment.length;
     }
     let look = format_args!("fill=\"none\" stroke=\"{}\" stroke-width=\"{:.2}\"", colour::CLOTHOID, 3.0 * pen.unit);
