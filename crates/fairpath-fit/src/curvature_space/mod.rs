@@ -28,7 +28,7 @@ use blend::{blended, rounded};
 use compose::{Profile, placed};
 use fairpath_curve::{Continuity, Point, Segment, Vec2};
 use ground::{Ground, Stretch, run};
-use pieces::{RING_PIECES, linear_pieces};
+use pieces::linear_pieces;
 use refine::{LONGER, Refined, Run, refined};
 
 /// Fits a stroke.
@@ -225,37 +225,22 @@ fn attempt(
             options.mode == Mode::Refined && found.refined && found.errors.get(j).is_some_and(|e| e <= target)
         })
     };
-    let segmented = |at_least: usize| -> Vec<(Profile, f64)> {
-        let stretches = ground.stretches.iter().zip(costs).enumerate();
-        let profile = |(j, (stretch, cost)): (usize, (&Stretch, &f64))| match kept(j) {
-            Some((found, _)) => found.profiles[j].clone(),
-            None => linear_pieces(stretch, ground.track.shape, *cost, at_least),
-        };
-        stretches.map(profile).collect()
+    observer.step(Step::Search);
+    let stretches = ground.stretches.iter().zip(costs).enumerate();
+    let profile = |(j, (stretch, cost)): (usize, (&Stretch, &f64))| match kept(j) {
+        Some((found, _)) => found.profiles[j].clone(),
+        None => linear_pieces(stretch, ground.track.shape, *cost),
     };
-    let mut best: Option<(Vec<(Profile, f64)>, Refined)> = None;
+    let profiles: Vec<(Profile, f64)> = stretches.map(profile).collect();
+    observer.step(Step::Merge);
     if options.mode == Mode::Refined {
-        let tries = if ground.is_ring() { &RING_PIECES[..] } else { &RING_PIECES[..1] };
-        for &at_least in tries {
-            observer.step(Step::Search);
-            let profiles = segmented(at_least);
-            observer.step(Step::Merge);
-            let run =
-                |j: usize| kept(j).map_or_else(|| Run::of(&profiles[j].0, ground), |(found, _)| found.runs[j].clone());
-            let runs: Vec<Run> = (0..profiles.len()).map(run).collect();
-            if let Some(refined) = refined(&runs, ground, options)
-                && best.as_ref().is_none_or(|b| refined.cost < b.1.cost)
-            {
-                best = Some((profiles, refined));
-            }
+        let run =
+            |j: usize| kept(j).map_or_else(|| Run::of(&profiles[j].0, ground), |(found, _)| found.runs[j].clone());
+        let runs: Vec<Run> = (0..profiles.len()).map(run).collect();
+        if let Some(Refined { parts, runs, errors }) = refined(&runs, ground, options) {
+            return Found { parts, profiles, refined: true, errors, runs };
         }
     }
-    if let Some((profiles, Refined { parts, runs, errors, .. })) = best {
-        return Found { parts, profiles, refined: true, errors, runs };
-    }
-    observer.step(Step::Search);
-    let profiles = segmented(RING_PIECES[0]);
-    observer.step(Step::Merge);
     let (parts, errors) = limbs(&profiles.iter().map(|p| &p.0).collect::<Vec<_>>(), ground, options);
     Found { parts, profiles, refined: false, errors, runs: Vec::new() }
 }
@@ -268,7 +253,7 @@ const LOWERED: usize = 11;
 const WORTH: f64 = 0.9;
 
 /// So often in sequence may lowering the cost bring nothing.
-const PATIENCE: usize = 2;
+const PATIENCE: usize = 4;
 
 /// The curve as the paper makes it: the first limb laid over its stretch, each further one turned about the end of the one before
 /// (section 5.1); and the largest distance of points of each stretch, px.

@@ -6,8 +6,8 @@ use super::ground::Stretch;
 use super::{profile, segmentation};
 use crate::track::Shape;
 
-/// A profile, that of a ring with a number of pieces `at_least`, and the cost of its pieces by equation 7, radians.
-pub(crate) fn linear_pieces(stretch: &Stretch, shape: Shape, piece_cost: f64, at_least: usize) -> (Profile, f64) {
+/// A profile, and the cost of its pieces by equation 7, radians.
+pub(crate) fn linear_pieces(stretch: &Stretch, shape: Shape, piece_cost: f64) -> (Profile, f64) {
     let (mut breaks, mut cost) = segmentation::breaks(&stretch.places, piece_cost);
     let mut places = &stretch.places;
     let mut span = stretch.span;
@@ -31,15 +31,14 @@ pub(crate) fn linear_pieces(stretch: &Stretch, shape: Shape, piece_cost: f64, at
     let last = knots.len() - 1;
     knots[last] = span[1];
     if shape == Shape::Ring {
-        divide(&mut knots, at_least);
+        divide(&mut knots, RING_PIECES);
     }
     let kappas = profile::connected(places, &knots);
     (Profile { knots, kappas }, cost)
 }
 
-/// A smoothly closed curve that is no circle has four vertices, extremes of its curvature: it is tried with a linear piece between
-/// neighbours at least, and with two.
-pub(crate) const RING_PIECES: [usize; 2] = [4, 8];
+/// A smoothly closed curve that is no circle has four vertices, extremes of its curvature, and linear pieces between them.
+const RING_PIECES: usize = 4;
 
 /// Halves the longest pieces until there are so many.
 fn divide(knots: &mut Vec<f64>, pieces: usize) {

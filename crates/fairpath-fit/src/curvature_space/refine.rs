@@ -93,8 +93,6 @@ pub(crate) struct Refined {
     pub(crate) runs: Vec<Run>,
     /// Largest distance of the points of each stretch, or half the length of a loop that nobody drew, px.
     pub(crate) errors: Vec<f64>,
-    /// What the pieces and their deviations cost.
-    pub(crate) cost: f64,
 }
 
 /// The curve of runs of pieces, one for each stretch, that follows the points best, with G2 joins within a run and corners between. Nothing
@@ -136,22 +134,13 @@ pub(crate) fn refined(runs: &[Run], ground: &Ground, options: &CurvatureSpaceOpt
             errors: vec![found.largest],
         });
     }
-    let cost = total(&chain, &measured, &costs);
-    Some(Refined { cost, ..concluded(chain, &measured, begin) })
-}
-
-/// The largest distance of the data of a piece, or half of what it is longer than the way along its data: a loop that nobody drew shows in
-/// its length, px.
-fn error(chain: &Chain, measured: &Measured, k: usize) -> f64 {
-    let normal = &measured.normals[k];
-    let (first, end) = normal.span;
-    // A piece that no datum reached may go from one to the next.
-    let way = if first < end {
-        chain.data[end.min(chain.data.len() - 1)].s - chain.data[first.saturating_sub(1)].s
-    } else {
-        return normal.error;
-    };
-    normal.error.max(0.5 * (chain.pieces[k].q[LENGTH] - LONGER * way))
+    let mut refined = concluded(chain, &measured, begin);
+    // A loop that nobody drew shows in its length.
+    for ((run, stretch), error) in refined.runs.iter().zip(&ground.stretches).zip(&mut refined.errors) {
+        let length: f64 = run.pieces.iter().map(|p| p.q[LENGTH]).sum();
+        *error = error.max(0.5 * (length - LONGER * (stretch.span[1] - stretch.span[0])));
+    }
+    Some(refined)
 }
 
 /// A curve may be longer than its stroke by this factor: tips of corners that are drawn out add up.
@@ -215,7 +204,7 @@ fn concluded(chain: Chain, measured: &Measured, begin: f64) -> Refined {
     let mut errors: Vec<f64> = Vec::new();
     let mut corners = chain.corners.iter();
     for (k, piece) in chain.pieces.iter().enumerate() {
-        let error = error(&chain, measured, k);
+        let error = measured.normals[k].error;
         match (runs.last_mut(), errors.last_mut()) {
             (Some(run), Some(largest)) if chain.joins[k - 1] != Continuity::G0 => {
                 run.pieces.push(*piece);
@@ -229,5 +218,5 @@ fn concluded(chain: Chain, measured: &Measured, begin: f64) -> Refined {
             }
         }
     }
-    Refined { parts: (segments, chain.joins, closed), runs, errors, cost: 0.0 }
+    Refined { parts: (segments, chain.joins, closed), runs, errors }
 }
