@@ -1,7 +1,8 @@
 //! Fair curves from rough strokes: points in, a [`fairpath_curve::Spline`] of lines, arcs and clothoids with exact joins out, by the
 //! shortest-path method of Baran, Lehtinen and Popović (2010) or in curvature space after McCrae and Singh (2008).
 //!
-//! - Fit a stroke: [`fit`]; in curvature space: [`fit_curvature_space`]. Watch its steps or keep every intermediate result: [`fit_observed`].
+//! - Fit a stroke: [`fit`]; in curvature space: [`fit_curvature_space`]. Watch its steps or keep every intermediate result: [`fit_observed`],
+//!   [`fit_curvature_space_observed`].
 //! - Choose between fewer segments and less deviation: [`FitOptions::preset`], [`Preset`].
 //!
 //! ```
@@ -39,7 +40,7 @@ mod track;
 mod walk;
 
 pub use baseline::{CubicOptions, LaplacianOptions, MvcOptions};
-pub use curvature_space::{CurvatureEstimate, CurvatureSpaceOptions, Mode};
+pub use curvature_space::{CurvatureEstimate, CurvaturePlace, CurvatureSpaceOptions, CurvatureStages, Mode};
 pub use edit::{
     Constraint, CurveEnd, EditError, Extension, close, cut, extend, interpolate, interpolate_all, join, make_corner,
     smooth_corner,
@@ -90,7 +91,24 @@ pub fn fit_observed(
 /// # Errors
 /// As [`fit`].
 pub fn fit_curvature_space(stroke: &Stroke, options: &CurvatureSpaceOptions) -> Result<Fit, FitError> {
-    curvature_space::fit(stroke, options)
+    fit_curvature_space_observed(stroke, options, &mut (), None)
+}
+
+/// As [`fit_curvature_space`], telling `observer` of each step and leaving every intermediate result in `stages`, if given.
+///
+/// Of the steps, [`Step::Candidates`] is the estimate of curvature (section 4.1), [`Step::Search`] its segmentation (4.2) and
+/// [`Step::Merge`] everything that lays the pieces over the stroke or fits them to it; there is no graph. Search and merge come anew with every
+/// lower cost that is tried.
+///
+/// # Errors
+/// As [`fit`].
+pub fn fit_curvature_space_observed(
+    stroke: &Stroke,
+    options: &CurvatureSpaceOptions,
+    observer: &mut dyn Observer,
+    stages: Option<&mut CurvatureStages>,
+) -> Result<Fit, FitError> {
+    curvature_space::fit(stroke, options, observer, stages)
 }
 
 /// The curve of a stroke made of pieces of French curves (McCrae and Singh 2011), in the stroke's unit and frame, and where the pieces come from. G2

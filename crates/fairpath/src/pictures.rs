@@ -2,9 +2,10 @@
 
 use anyhow::Result;
 use fairpath_curve::Spline;
-use fairpath_fit::{Stages, Stroke, TemplateSet, Warning};
+use fairpath_fit::{CurvatureStages, Stages, Stroke, TemplateSet, Warning};
 use fairpath_io::picture::{
-    Comb, Correction, Layout, PictureOptions, draw_corrections, draw_pieces, draw_splines, draw_stages,
+    Comb, Correction, Layout, PictureOptions, StagePicture, draw_corrections, draw_curvature_stages, draw_pieces,
+    draw_splines, draw_stages,
 };
 use fairpath_io::{Encoded, SplineFile, SplineFormat, StrokeFile, WriteOptions, YAxis, encode_splines};
 
@@ -75,10 +76,23 @@ pub(crate) fn corrections(rows: &[Correction<'_>], y: YAxis, png: bool) -> Resul
     Ok(if png { picture.to_png()? } else { picture.to_svg().as_bytes().to_vec() })
 }
 
-/// The steps of a fit as pictures in the manner of the paper's figure 4: a word for each and its SVG.
+/// The steps of a fit by shortest paths as pictures in the manner of the paper's figure 4: a word for each and its SVG.
 pub(crate) fn steps(stroke: &Stroke, stages: &Stages, spline: &Spline, y: YAxis) -> Vec<(String, Vec<u8>)> {
-    draw_stages(stroke, stages, spline, y, &PictureOptions::default())
-        .into_iter()
-        .map(|step| (format!("{}-{}", step.letter, step.name), step.picture.to_svg().as_bytes().to_vec()))
-        .collect()
+    named(draw_stages(stroke, stages, spline, y, &PictureOptions::default()))
+}
+
+/// The steps of a fit in curvature space as pictures in the manner of that paper's figures 4 and 7: a word for each and its SVG.
+pub(crate) fn curvature_steps(
+    stroke: &Stroke,
+    stages: &CurvatureStages,
+    spline: &Spline,
+    y: YAxis,
+) -> Vec<(String, Vec<u8>)> {
+    named(draw_curvature_stages(stroke, stages, spline, y, &PictureOptions::default()))
+}
+
+fn named(pictures: Vec<StagePicture>) -> Vec<(String, Vec<u8>)> {
+    let name =
+        |step: StagePicture| (format!("{}-{}", step.letter, step.name), step.picture.to_svg().as_bytes().to_vec());
+    pictures.into_iter().map(name).collect()
 }

@@ -17,8 +17,8 @@ pub(crate) struct Place {
     pub(crate) weight: f64,
 }
 
-/// Most places on a stretch: choosing breaks takes time with the cube of their number.
-const MOST: f64 = 500.0;
+/// Most places on a stretch: where it is all one line, choosing breaks takes time with the square of their number.
+const MOST: f64 = 4000.0;
 
 /// Curvature beyond this is noise or a cusp, radians per px.
 const LARGEST: f64 = 0.5;
@@ -31,17 +31,18 @@ const ROUNDS: usize = 4;
 
 /// Curvature between the arc lengths `from` and `to`, increasing in arc length, at least one place.
 ///
-/// `data` are all points; those beyond the stretch are looked at only if the stroke goes on `smoothly` there. `is_sample` tells points that were
+/// `data` are all points, and `line` joins them; those beyond the stretch are looked at only if the stroke goes on `smoothly` there. `is_sample` tells points that were
 /// not drawn, but lie on the chord of two that were.
 pub(crate) fn curvature(
     data: &[Datum],
+    line: &Polyline,
     is_sample: &[bool],
     [from, to]: [f64; 2],
     smoothly: bool,
     options: &CurvatureSpaceOptions,
 ) -> Vec<Place> {
     match options.curvature {
-        CurvatureEstimate::Circle => by_circles(data, [from, to], smoothly, options),
+        CurvatureEstimate::Circle => by_circles(data, line, [from, to], smoothly, options),
         CurvatureEstimate::ThreePoints => by_neighbours(data, is_sample, [from, to]),
     }
 }
@@ -49,14 +50,19 @@ pub(crate) fn curvature(
 /// Circles of least squares in a window around each place.
 ///
 /// A window that ends with the stretch would tell of its own middle, not of its place: so the places keep off the ends.
-fn by_circles(data: &[Datum], [from, to]: [f64; 2], smoothly: bool, options: &CurvatureSpaceOptions) -> Vec<Place> {
+fn by_circles(
+    data: &[Datum],
+    line: &Polyline,
+    [from, to]: [f64; 2],
+    smoothly: bool,
+    options: &CurvatureSpaceOptions,
+) -> Vec<Place> {
     let length = to - from;
     let window = options.curvature_window.min(WIDEST * length);
     let off = if smoothly { 0.0 } else { window };
     let (first, last) = (from + off, to - off);
     let count = ((last - first) / options.spacing).clamp(1.0, MOST).ceil();
     let step = (last - first) / count;
-    let line = Polyline { points: data.iter().map(|d| d.point).collect(), s: data.iter().map(|d| d.s).collect() };
     let mut hint = 0;
     let mut drawn: Vec<Datum> = Vec::new();
     (0..=count as usize)
@@ -142,7 +148,8 @@ mod tests {
             let data = circle(60.0);
             let ends = [0.0, data[99].s];
             let options = CurvatureSpaceOptions { curvature, ..CurvatureSpaceOptions::default() };
-            let places = super::curvature(&data, &[false; 100], ends, false, &options);
+            let line = super::super::ground::polyline_of(&data);
+            let places = super::curvature(&data, &line, &[false; 100], ends, false, &options);
             assert!(places.len() > 10);
             for place in places {
                 assert!((place.kappa - 1.0 / 60.0).abs() < 1e-5, "{place:?}");

@@ -12,7 +12,7 @@ mod graph;
 pub(crate) mod hold;
 pub(crate) mod merge;
 mod recursion;
-mod refine;
+pub(crate) mod refine;
 mod search;
 mod transition;
 

@@ -53,7 +53,7 @@ pub(crate) fn refine(chain: &mut Chain, measured: Measured, options: &FitOptions
 }
 
 /// The cost of a chain as section 3.4 counts it, on the chain as it is.
-pub(super) fn total(chain: &Chain, measured: &Measured, options: &FitOptions) -> f64 {
+pub(crate) fn total(chain: &Chain, measured: &Measured, options: &FitOptions) -> f64 {
     let errors = measured.normals.iter().map(|n| n.deviation(options));
     cost(&chain.pieces, errors, options)
 }
@@ -102,12 +102,12 @@ fn pass(chain: &mut Chain, measured: &mut Measured, fresh: &mut Vec<bool>, optio
 }
 
 /// A change: the pieces in `range` become `with`, joined by `level`.
-struct Change {
-    range: Range<usize>,
-    with: Vec<Piece>,
-    level: Continuity,
+pub(crate) struct Change {
+    pub(crate) range: Range<usize>,
+    pub(crate) with: Vec<Piece>,
+    pub(crate) level: Continuity,
     /// What it would gain if the joins cost nothing.
-    promise: f64,
+    pub(crate) promise: f64,
 }
 
 /// Makes the first change at a piece that gains; the pieces that it replaced, and by how many.
@@ -119,22 +119,29 @@ fn improve_at(
 ) -> Option<(Range<usize>, usize)> {
     let mut changes = changes(chain, measured, k, options);
     changes.sort_by(|a, b| b.promise.total_cmp(&a.promise));
-    for change in changes {
-        if !fits(chain, &change) {
-            continue;
-        }
-        if let Some((gain, trial)) = tried(chain, measured, &change, options)
-            && gain > WORTHWHILE
-        {
-            let Trial { window, pieces, joins, normals } = trial;
-            let count = pieces.len();
-            chain.pieces.splice(window.clone(), pieces);
-            chain.joins.splice(window.start..window.end - 1, joins);
-            measured.normals.splice(window.clone(), normals);
-            return Some((window, count));
-        }
+    changes.iter().find_map(|change| made(chain, measured, change, options))
+}
+
+/// Makes a change if it gains; the pieces that it replaced with its neighbours, and by how many.
+pub(crate) fn made(
+    chain: &mut Chain,
+    measured: &mut Measured,
+    change: &Change,
+    options: &FitOptions,
+) -> Option<(Range<usize>, usize)> {
+    if !fits(chain, change) {
+        return None;
     }
-    None
+    let (gain, trial) = tried(chain, measured, change, options)?;
+    if !(gain > WORTHWHILE) {
+        return None;
+    }
+    let Trial { window, pieces, joins, normals } = trial;
+    let count = pieces.len();
+    chain.pieces.splice(window.clone(), pieces);
+    chain.joins.splice(window.start..window.end - 1, joins);
+    measured.normals.splice(window.clone(), normals);
+    Some((window, count))
 }
 
 /// The changes at a piece that might pay, judged by free fits.

@@ -4,6 +4,7 @@
 //! px; the drawing is moved to the page in f64 before anything is rounded, so that far-away coordinates lose nothing.
 
 mod board;
+mod curvature_stages;
 mod drawing;
 mod lettering;
 mod oversketch;
@@ -14,6 +15,7 @@ mod sheet;
 mod stages;
 
 pub use board::draw_templates;
+pub use curvature_stages::draw_curvature_stages;
 pub(crate) use drawing::bounds;
 pub use drawing::draw_splines;
 pub use oversketch::{Correction, draw_corrections};

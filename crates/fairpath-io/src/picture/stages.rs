@@ -11,14 +11,15 @@ use fairpath_fit::{Candidate, Stages, Stroke};
 /// Most candidates in a picture; of more, every second, third, … is shown.
 const MAX_CANDIDATES: usize = 6000;
 
-/// One of the pictures of figure 4.
+/// A picture of one step of a method.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StagePicture {
-    /// The letter that the paper gives it: a, b, c, e or f (d, the graph, has no picture of its own).
+    /// Its letter in order; for the shortest-path method the one that figure 4 of its paper gives it: a, b, c, e or f (d, the graph, has no
+    /// picture of its own).
     pub letter: char,
-    /// A word for file names: `stroke`, `samples`, `candidates`, `path` or `result`.
+    /// A word for file names, such as `stroke`, `candidates` or `result`.
     pub name: &'static str,
-    /// The picture. All of one stroke have the same frame.
+    /// The picture. All drawings of one stroke have the same frame.
     pub picture: Picture,
 }
 
@@ -65,7 +66,7 @@ pub fn draw_stages(
     ]
 }
 
-fn input(page: &mut Page, view: &View, pen: Pen, stroke: &Stroke) {
+pub(super) fn input(page: &mut Page, view: &View, pen: Pen, stroke: &Stroke) {
     let points = || thinned(drawable_points(stroke).map(|p| view.point(p)));
     let width = 1.6 * pen.unit;
     page.polyline(points(), format_args!("fill=\"none\" stroke=\"{}\" stroke-width=\"{width:.2}\"", colour::STROKE));

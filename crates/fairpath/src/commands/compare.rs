@@ -63,7 +63,7 @@ fn compared(args: &CompareArgs, inputs: &Inputs, printer: &mut Printer) -> Resul
             let mut results = SplineFile { unit: inputs.file.unit, y: inputs.file.y, ..SplineFile::default() };
             for outcome in made.by_ref().take(count) {
                 match outcome {
-                    Ok(entry) => results.splines.push(entry),
+                    Ok((entry, _)) => results.splines.push(entry),
                     Err(failure) => results.failures.push(failure),
                 }
             }

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use anyhow::{Result, bail};
-use fairpath_fit::{Preset, Stages, TemplateSet};
+use fairpath_fit::{Preset, TemplateSet};
 use fairpath_io::{Failure, SplineEntry, SplineFile};
 
 use super::Ending;
@@ -106,9 +106,6 @@ fn check_combination(args: &FitArgs, output: Option<&Destination>, picture: Opti
             bail!("{}: -o and --picture name the same file", to.path.display());
         }
     }
-    if args.stages.is_some() && args.method != Method::ShortestPath {
-        bail!("--stages: only the steps of the method shortest-path can be drawn");
-    }
     if args.preset != Preset::Default && args.method != Method::ShortestPath {
         bail!("--preset {}: the method {} has no presets", preset_name(args.preset), args.method.name());
     }
@@ -125,14 +122,10 @@ struct Outcome {
 }
 
 fn fit_all(jobs: &[Job<'_>], inputs: &Inputs, args: &FitArgs) -> Result<Vec<Outcome>> {
-    in_parallel(jobs, args.threads, |job| {
-        let mut stages = args.stages.is_some().then(Stages::default);
-        let result = fitted(job, args.method, !args.no_times, stages.as_mut());
-        let steps = match (&result, &stages) {
-            (Ok(entry), Some(stages)) => pictures::steps(job.stroke, stages, &entry.spline, inputs.file.y),
-            _ => Vec::new(),
-        };
-        Outcome { result, steps }
+    let draw = args.stages.is_some().then_some(inputs.file.y);
+    in_parallel(jobs, args.threads, |job| match fitted(job, args.method, !args.no_times, draw) {
+        Ok((entry, steps)) => Outcome { result: Ok(entry), steps },
+        Err(failure) => Outcome { result: Err(failure), steps: Vec::new() },
     })
 }
 

@@ -3,31 +3,30 @@
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use anyhow::{Context, Result};
-use fairpath_fit::Stages;
-use fairpath_io::{Failure, SplineEntry};
+use fairpath_io::{Failure, SplineEntry, YAxis};
 use rayon::prelude::*;
 
 use super::fit_inputs::Job;
-use super::method_options::Fitted;
+use super::method_options::{Fitted, Steps};
 use crate::args::Method;
 use crate::progress::Progress;
 use crate::stopwatch::Stopwatch;
 
-/// The curve of a stroke, with the times that it took if `timed`, or why there is none.
+/// The curve of a stroke, with the times that it took if `timed`, and pictures of the steps if they are to be drawn; or why there is none.
 pub(crate) fn fitted(
     job: &Job<'_>,
     method: Method,
     timed: bool,
-    stages: Option<&mut Stages>,
-) -> std::result::Result<SplineEntry, Failure> {
+    draw: Option<YAxis>,
+) -> std::result::Result<(SplineEntry, Steps), Failure> {
     let name = job.stroke.name.as_str();
     // The fitter does not panic on data; should it all the same, the other strokes are still worth having.
     let outcome = catch_unwind(AssertUnwindSafe(|| {
         let mut watch = Stopwatch::start();
-        let fit = job.options.fit(job.stroke, &mut watch, stages);
+        let fit = job.options.fit(job.stroke, &mut watch, draw);
         (fit, watch.stop())
     }));
-    let (Fitted { fit, templates }, ms) = match outcome {
+    let (Fitted { fit, templates, steps }, ms) = match outcome {
         Ok((Ok(fitted), ms)) => (fitted, ms),
         Ok((Err(error), _)) => return Err(Failure::from_error(name, &error)),
         Err(_) => {
@@ -36,7 +35,7 @@ pub(crate) fn fitted(
         }
     };
     let entry = SplineEntry::from_fit(name, method.name(), fit, timed.then_some(ms));
-    Ok(SplineEntry { templates, ..entry })
+    Ok((SplineEntry { templates, ..entry }, steps))
 }
 
 /// What `one` makes of each, in their order, by so many threads; 0 is one for each processor.

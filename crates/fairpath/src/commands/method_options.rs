@@ -4,11 +4,11 @@ use std::sync::Arc;
 
 use anyhow::{Result, bail};
 use fairpath_fit::{
-    Closing, CubicOptions, CurvatureSpaceOptions, Fit, FitError, FitOptions, FrenchCurveOptions, LaplacianOptions,
-    MvcOptions, Observer, Preset, Stages, Stroke, TemplateSet, fit_cubic, fit_curvature_space, fit_french_curve,
-    fit_laplacian, fit_mvc, fit_observed,
+    Closing, CubicOptions, CurvatureSpaceOptions, CurvatureStages, Fit, FitError, FitOptions, FrenchCurveOptions,
+    LaplacianOptions, MvcOptions, Observer, Preset, Stages, Stroke, TemplateSet, fit_cubic,
+    fit_curvature_space_observed, fit_french_curve, fit_laplacian, fit_mvc, fit_observed,
 };
-use fairpath_io::UsedTemplates;
+use fairpath_io::{UsedTemplates, YAxis};
 use schemars::JsonSchema;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -16,6 +16,7 @@ use serde_json::Value;
 
 use crate::args::{FitArgs, Method};
 use crate::parameters::{self, Parameter};
+use crate::pictures;
 
 /// What the command line must know of the options of a method; a method more is an implementation more.
 trait Options: JsonSchema + Serialize + DeserializeOwned + Default + Clone + Send + Sync + 'static {
@@ -58,15 +59,19 @@ options_with_stroke!(CubicOptions, |options| options.max_error);
 options_with_stroke!(MvcOptions, |options| options.max_error);
 options_with_stroke!(LaplacianOptions, |_options| f64::INFINITY);
 
-/// A fitted stroke, and for a method of French curves which of them it was drawn with.
+/// Pictures of the steps of a fit: a word for each and its SVG.
+pub(crate) type Steps = Vec<(String, Vec<u8>)>;
+
+/// A fitted stroke, for a method of French curves which of them it was drawn with, and pictures of the steps if asked for.
 pub(crate) struct Fitted {
     pub(crate) fit: Fit,
     pub(crate) templates: Option<UsedTemplates>,
+    pub(crate) steps: Steps,
 }
 
 impl From<Fit> for Fitted {
     fn from(fit: Fit) -> Self {
-        Self { fit, templates: None }
+        Self { fit, templates: None, steps: Steps::new() }
     }
 }
 
@@ -81,20 +86,20 @@ struct Chosen<T, F> {
 /// A method that can be run, whatever its options are.
 trait Runnable: Send + Sync {
     fn largest_deviation(&self) -> f64;
-    fn fit(&self, stroke: &Stroke, observer: &mut dyn Observer, stages: Option<&mut Stages>) -> Outcome;
+    fn fit(&self, stroke: &Stroke, observer: &mut dyn Observer, draw: Option<YAxis>) -> Outcome;
     fn listed(&self) -> (Vec<Parameter>, Value);
 }
 
 impl<T: Options, F> Runnable for Chosen<T, F>
 where
-    F: Fn(&T, &Stroke, &mut dyn Observer, Option<&mut Stages>) -> Outcome + Send + Sync,
+    F: Fn(&T, &Stroke, &mut dyn Observer, Option<YAxis>) -> Outcome + Send + Sync,
 {
     fn largest_deviation(&self) -> f64 {
         self.options.largest_deviation()
     }
 
-    fn fit(&self, stroke: &Stroke, observer: &mut dyn Observer, stages: Option<&mut Stages>) -> Outcome {
-        (self.fit)(&self.options, stroke, observer, stages)
+    fn fit(&self, stroke: &Stroke, observer: &mut dyn Observer, draw: Option<YAxis>) -> Outcome {
+        (self.fit)(&self.options, stroke, observer, draw)
     }
 
     fn listed(&self) -> (Vec<Parameter>, Value) {
@@ -145,11 +150,11 @@ impl MethodOptions {
         let method: Arc<dyn Runnable> = match asked.method {
             Method::ShortestPath => Arc::new(Chosen {
                 options: set(FitOptions::preset(asked.preset), asked, pixel_size)?,
-                fit: |options: &FitOptions,
-                      stroke: &Stroke,
-                      observer: &mut dyn Observer,
-                      stages: Option<&mut Stages>| {
-                    fit_observed(stroke, options, observer, stages).map(Fitted::from)
+                fit: |options: &FitOptions, stroke: &Stroke, observer: &mut dyn Observer, draw: Option<YAxis>| {
+                    let mut stages = draw.map(|_| Stages::default());
+                    let fit = fit_observed(stroke, options, observer, stages.as_mut())?;
+                    let drawn = draw.zip(stages).map(|(y, stages)| pictures::steps(stroke, &stages, &fit.spline, y));
+                    Ok(Fitted { steps: drawn.unwrap_or_default(), ..Fitted::from(fit) })
                 },
             }),
             Method::FrenchCurve => {
@@ -159,14 +164,26 @@ impl MethodOptions {
                     fit: move |options: &FrenchCurveOptions,
                                stroke: &Stroke,
                                _: &mut dyn Observer,
-                               _: Option<&mut Stages>| {
+                               _: Option<YAxis>| {
                         let found = fit_french_curve(stroke, &templates, options)?;
                         let used = UsedTemplates::new(&templates, &found.pieces);
-                        Ok(Fitted { fit: found.fit, templates: Some(used) })
+                        Ok(Fitted { fit: found.fit, templates: Some(used), steps: Steps::new() })
                     },
                 })
             }
-            Method::CurvatureSpace => plain(fit_curvature_space, asked, pixel_size)?,
+            Method::CurvatureSpace => Arc::new(Chosen {
+                options: set(CurvatureSpaceOptions::default(), asked, pixel_size)?,
+                fit: |options: &CurvatureSpaceOptions,
+                      stroke: &Stroke,
+                      observer: &mut dyn Observer,
+                      draw: Option<YAxis>| {
+                    let mut stages = draw.map(|_| CurvatureStages::default());
+                    let fit = fit_curvature_space_observed(stroke, options, observer, stages.as_mut())?;
+                    let drawn =
+                        draw.zip(stages).map(|(y, stages)| pictures::curvature_steps(stroke, &stages, &fit.spline, y));
+                    Ok(Fitted { steps: drawn.unwrap_or_default(), ..Fitted::from(fit) })
+                },
+            }),
             Method::Laplacian => plain(fit_laplacian, asked, pixel_size)?,
             Method::Cubic => plain(fit_cubic, asked, pixel_size)?,
             Method::Mvc => plain(fit_mvc, asked, pixel_size)?,
@@ -179,7 +196,7 @@ impl MethodOptions {
         }
     }
 
-    /// Fits a stroke. Only the method of shortest paths has stages, and only it tells `observer` of its steps.
+    /// Fits a stroke, telling `observer` of the steps if it has any; and draws them, if asked to.
     ///
     /// # Errors
     /// As the method.
@@ -187,9 +204,9 @@ impl MethodOptions {
         &self,
         stroke: &Stroke,
         observer: &mut dyn Observer,
-        stages: Option<&mut Stages>,
+        draw: Option<YAxis>,
     ) -> std::result::Result<Fitted, FitError> {
-        self.0.fit(stroke, observer, stages)
+        self.0.fit(stroke, observer, draw)
     }
 
     /// Distance from its stroke that a curve should keep, in the stroke's unit.
@@ -209,7 +226,7 @@ fn plain<T: Options>(
     asked: &Asked<'_>,
     pixel_size: Option<f64>,
 ) -> Result<Arc<dyn Runnable>> {
-    let run = move |options: &T, stroke: &Stroke, _: &mut dyn Observer, _: Option<&mut Stages>| {
+    let run = move |options: &T, stroke: &Stroke, _: &mut dyn Observer, _: Option<YAxis>| {
         fit(stroke, options).map(Fitted::from)
     };
     Ok(Arc::new(Chosen { options: set(T::default(), asked, pixel_size)?, fit: run }))
