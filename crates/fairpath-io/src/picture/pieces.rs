@@ -2,7 +2,7 @@
 //! 11 of McCrae and Singh (2011) show it.
 
 use super::PictureOptions;
-use super::board::shape;
+use super::board::{shape, view_at, write};
 use super::drawing::{Pen, bounds, page_for, sane_size, thinned};
 use super::lettering;
 use super::page::{Page, Picture, View, colour, colour_of_piece};
@@ -12,7 +12,7 @@ use crate::stroke_file::StrokeFile;
 use crate::unit::YAxis;
 use fairpath_curve::{Point, Similarity, Spline, Vec2};
 use fairpath_fit::{Stroke, Template, TemplateSet};
-use kurbo::{BezPath, Rect};
+use kurbo::{Rect, Size};
 
 /// Width of the legend over that of the drawing.
 const LEGEND: f64 = 0.42;
@@ -201,24 +201,17 @@ fn legend(page: &mut Page, into: Rect, pen: Pen, set: &TemplateSet, used: &[Used
     page.open_clipped(into, "legend");
     let mut top = into.y0 + padding;
     for ((&index, spline), bounds) in indices.iter().zip(splines).zip(&boxes) {
-        let size = kurbo::Size::new(bounds.width(), bounds.height()) * scale;
+        let size = Size::new(bounds.width(), bounds.height()) * scale;
         let corner = Point::new(into.x0 + padding, top + padding);
-        let view = View::fit(
-            bounds.inflate(1e-9 / scale, 1e-9 / scale),
-            Rect::from_origin_size(corner, size).inflate(1e-9, 1e-9),
-            false,
-        );
+        let view = view_at(*bounds, corner, scale);
         shape(page, &view, Pen { unit: 0.6 * pen.unit }, spline);
         let own: Vec<&Used<'_>> = used.iter().filter(|u| u.index == index).collect();
         for (u, level) in own.iter().zip(levels(&own)) {
             u.draw_as(page, &view, &Similarity::IDENTITY, level * 4.5 * pen.unit, 3.2 * pen.unit, 0.9);
         }
         let name = lettering::shortened(set.templates()[index].name(), letters, into.width() - 2.0 * padding);
-        let text: BezPath = lettering::text(&name, Point::new(corner.x, corner.y + size.height + label), letters);
-        page.path(
-            &text,
-            format_args!("fill=\"none\" stroke=\"{}\" stroke-width=\"{:.2}\"", colour::LABEL, letters / 8.0),
-        );
+        let at = Point::new(corner.x, corner.y + size.height + label);
+        write(page, &name, at, letters, colour::LABEL);
         top += size.height + label + 2.0 * padding;
     }
     page.close();

@@ -34,9 +34,12 @@ pub(crate) fn run(args: &TemplatesArgs, printer: &mut Printer) -> Result<Ending>
         printer.result(&table(&sets))?;
         return Ok(Ending::Done);
     };
-    let set = one_set(&sets, args, &to.path)?;
+    let bytes = match to.format {
+        OutputFormat::Json => encode_templates(&one_set(&sets, args, &to.path)?)?,
+        format => picture(&sets, format, args.comb)?,
+    };
     let mut ready = Ready::default();
-    ready.add(&to.path, encoded(&set, to.format, args.comb)?);
+    ready.add(&to.path, bytes);
     ready.write()?;
     Ok(Ending::Done)
 }
@@ -46,6 +49,9 @@ fn destination(path: &Path, args: &TemplatesArgs) -> Result<Destination> {
     let to = Destination::new(path, args.format)?;
     match to.format {
         OutputFormat::Json if args.comb => bail!("--comb: only a picture (svg or png) has a comb"),
+        OutputFormat::Svg | OutputFormat::Png if args.name.is_some() => {
+            bail!("--name: a picture names the sets as they are; write json first")
+        }
         OutputFormat::Json | OutputFormat::Svg | OutputFormat::Png => Ok(to),
         OutputFormat::Dxf | OutputFormat::Csv => {
             bail!("{}: a set is written as json, or drawn as svg or png", path.display())
@@ -65,15 +71,13 @@ fn one_set(sets: &[TemplateSet], args: &TemplatesArgs, output: &Path) -> Result<
     Ok(TemplateSet::new(name, templates)?)
 }
 
-fn encoded(set: &TemplateSet, format: OutputFormat, comb: bool) -> Result<Vec<u8>> {
+/// All sets, each at a scale of its own.
+fn picture(sets: &[TemplateSet], format: OutputFormat, comb: bool) -> Result<Vec<u8>> {
     let mut options = PictureOptions::default();
     options.joins = comb;
     options.comb = if comb { Comb::Auto } else { Comb::Off };
-    Ok(match format {
-        OutputFormat::Json => encode_templates(set)?,
-        OutputFormat::Png => draw_templates(set, &options).to_png()?,
-        _ => draw_templates(set, &options).to_svg().as_bytes().to_vec(),
-    })
+    let picture = draw_templates(sets, &options);
+    Ok(if format == OutputFormat::Png { picture.to_png()? } else { picture.to_svg().as_bytes().to_vec() })
 }
 
 /// A line for each French curve; lengths are in px.
