@@ -168,7 +168,7 @@ fn solve(stroke: &Stroke, cleaned: &Cleaned, guides: &[Guide], options: &FrenchC
     let joints = joints(&pieces.laid, &pieces.corner_after, pieces.closed, guides);
     if options.mode == Laying::Refined {
         let points: Vec<&[Vec2]> = pieces.points.iter().map(Vec::as_slice).collect();
-        pose::settle_together(&mut pieces.laid, &points, &joints, guides);
+        pose::settle_together(&mut pieces.laid, &points, &joints, guides, options.end_threshold.unwrap_or(f64::INFINITY));
     }
     let links: Vec<Link> = (0..joints.len())
         .map(|i| link(&pieces.laid[i], &pieces.laid[(i + 1) % pieces.laid.len()], joints[i], guides, options))
