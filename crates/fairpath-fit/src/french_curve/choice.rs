@@ -25,7 +25,7 @@ pub(crate) fn fitting(section: Section, error: f64, part: &Part, guides: &[Guide
     let mut waiting = vec![(section, error)];
     while let Some((section, error)) = waiting.pop() {
         let Section { first, last, .. } = section;
-        let (laid, off) = best_laid(section, error, part, guides, options);
+        let (laid, off) = best_laid(section, error, part, guides, &Neighbours::NONE, options);
         let fits = options.end_threshold.is_none_or(|threshold| off <= threshold);
         // Both halves together err no more than the whole, unless corners of templates are in the way.
         let halved = |most: f64| if fits { None } else { halves([first, last], most, part, guides) };
@@ -43,6 +43,7 @@ pub(crate) fn best_laid(
     error: f64,
     part: &Part,
     guides: &[Guide],
+    neighbours: &Neighbours,
     options: &FrenchCurveOptions,
 ) -> (Laid, f64) {
     let Section { first, last, guide, node } = section;
@@ -59,7 +60,7 @@ pub(crate) fn best_laid(
     let mut best: Option<(f64, Laid, f64)> = None;
     let mut consider = |guide: usize, node: f64| {
         let stretch = within(guides, guide, stretch(guide, node));
-        let laid = settled(&by_least_squares(guides, guide, stretch, points), points, guides, &Neighbours::NONE);
+        let laid = settled(&by_least_squares(guides, guide, stretch, points), points, guides, neighbours);
         let d = laid.distance(guides, points);
         if best.is_none_or(|b| d.rms < b.0) {
             best = Some((d.rms, laid, d.largest));

@@ -86,9 +86,9 @@ impl Growth {
         best
     }
 
-    /// How many places are still compared.
-    pub(crate) fn len(&self) -> usize {
-        self.runners.len()
+    /// Whether nothing fits any more.
+    pub(crate) fn is_empty(&self) -> bool {
+        self.runners.is_empty()
     }
 
     /// The fits of the whole stretch that are better than those beside them on their guides, at most `most`, the best first.

@@ -5,6 +5,7 @@
 //! Along the templates they may slide. The matrix couples neighbours only, so that a step takes time linear in the number of pieces.
 
 use super::guide::Guide;
+use super::joints::goes_straight_on;
 use super::laid::{Laid, SLIDE};
 use crate::linear::{cholesky, solve};
 use fairpath_curve::{Pose, Vec2, trig};
@@ -23,8 +24,8 @@ pub(crate) enum Joint {
 /// What a piece that is laid by itself has to meet.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Neighbours {
-    /// Where the piece before it ends, and whether both are straight.
-    pub(crate) before: Option<(Pose, Joint)>,
+    /// The piece before it, which stays where it is.
+    pub(crate) before: Option<Laid>,
 }
 
 impl Neighbours {
@@ -120,11 +121,14 @@ pub(crate) fn settled(laid: &Laid, points: &[Vec2], guides: &[Guide], neighbours
     let mut laid = *laid;
     for _ in 0..ROUNDS {
         let mut normal = Normal::of(&laid, points, guides);
-        if let Some((before, joint)) = neighbours.before {
-            let foot = laid.foot(path, laid.from, [laid.from, laid.to], before.point.to_vec2());
-            let [gap, turn] = weights(joint);
-            normal.add(across(foot.pose, normal.centre), foot.across, gap);
-            normal.add([0.0, 0.0, 1.0], trig::wrap_angle(before.heading - foot.pose.heading), turn);
+        if let Some(before) = neighbours.before {
+            let joint = if goes_straight_on(&before, &laid, guides) { Joint::Straight } else { Joint::Smooth };
+            let end = before.pose(&guides[before.guide].path, before.to);
+            let foot = laid.foot(path, laid.from, [laid.from, laid.to], end.point.to_vec2());
+            let turn = trig::wrap_angle(end.heading - foot.pose.heading);
+            let [gap_weight, turn_weight] = weights(joint);
+            normal.add(across(foot.pose, normal.centre), foot.across, gap_weight * robust(foot.across, FAR_GAP));
+            normal.add([0.0, 0.0, 1.0], turn, turn_weight * robust(turn, FAR_TURN));
         }
         let mut normal = normal.damped(laid.to - laid.from);
         if !cholesky(&mut normal.a, 3, 0.0) {
@@ -212,8 +216,6 @@ fn pull(pieces: &mut [Laid], points: &[&[Vec2]], joints: &[Joint], pulls: &[f64]
             );
             let gap = trig::unit(middle).cross(pb.point - pa.point);
             let [gap_weight, turn_weight] = weights(joints[i]).map(|w| w * pulls[i]);
-            // What is far from meeting does not come together by force.
-            let robust = |v: f64, scale: f64| 1.0 / (1.0 + (v / scale) * (v / scale));
             let both = [0.0, 0.0, 1.0];
             for (ra, rb, residual, weight) in [
                 (ra, rb, gap, gap_weight * robust(gap, FAR_GAP)),
@@ -236,6 +238,11 @@ fn pull(pieces: &mut [Laid], points: &[&[Vec2]], joints: &[Joint], pulls: &[f64]
     for i in (0..joints.len()).filter(smooth) {
         slide(pieces, &alone, i, (i + 1) % n, guides);
     }
+}
+
+/// What is far from meeting does not come together by force.
+fn robust(residual: f64, far: f64) -> f64 {
+    1.0 / (1.0 + (residual / far) * (residual / far))
 }
 
 /// A gap and an angle that are too large to be closed, px and radians.
