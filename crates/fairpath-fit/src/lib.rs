@@ -36,7 +36,7 @@ mod walk;
 
 pub use curvature_space::{CurvatureEstimate, CurvatureSpaceOptions, Mode};
 pub use french_curve::{
-    CornerSource, Flips, FrenchCurveFit, FrenchCurveOptions, Laying, PieceSearch, Template, TemplateError, TemplatePiece,
+    Committed, CornerSource, Flips, FrenchCurveFit, FrenchCurveOptions, FrenchCurveStream, Laying, PieceSearch, Template, TemplateError, TemplatePiece,
     TemplateSet,
 };
 pub use options::{ClosedSearch, Closing, Deviation, FitOptions, Preset, Resampling, Search, Transitions};

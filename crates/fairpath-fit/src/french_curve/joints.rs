@@ -75,7 +75,7 @@ fn leg_end(b: &Laid, guides: &[Guide]) -> Outer {
 }
 
 /// Whether two pieces are straight where they meet, and in about one line.
-fn goes_straight_on(a: &Laid, b: &Laid, guides: &[Guide]) -> bool {
+pub(crate) fn goes_straight_on(a: &Laid, b: &Laid, guides: &[Guide]) -> bool {
     let (pa, pb) = (&guides[a.guide].path, &guides[b.guide].path);
     let straight = pa.leg(a.to - NEAR).is_some() && pb.leg(b.from + NEAR).is_some();
     let turn = trig::wrap_angle(b.pose(pb, b.from + NEAR).heading - a.pose(pa, a.to - NEAR).heading);

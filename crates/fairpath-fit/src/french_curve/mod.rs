@@ -14,11 +14,13 @@ mod path;
 mod piece;
 mod pose;
 mod segmentation;
+mod stream;
 mod template;
 mod turning;
 
 pub use options::{CornerSource, Flips, FrenchCurveOptions, Laying, PieceSearch};
 pub use piece::TemplatePiece;
+pub use stream::{Committed, FrenchCurveStream};
 pub use template::{Template, TemplateError, TemplateSet};
 
 use crate::clean::{Cleaned, clean};
@@ -31,7 +33,7 @@ use crate::stroke::Stroke;
 use crate::track::{Shape, Track, prepare};
 use chain::Chain;
 use choice::{Chosen, fitting};
-use fairpath_curve::{Continuity, Point, Similarity, Vec2};
+use fairpath_curve::{Point, Similarity, Vec2};
 use guide::{Guide, guides};
 use joints::joints;
 use laid::Laid;
@@ -51,6 +53,13 @@ pub struct FrenchCurveFit {
 /// Fits a stroke.
 pub(crate) fn fit(stroke: &Stroke, set: &TemplateSet, options: &FrenchCurveOptions) -> Result<FrenchCurveFit, FitError> {
     options.validate()?;
+    if options.search == PieceSearch::Greedy {
+        let mut stream = FrenchCurveStream::new(set, options)?;
+        for &point in &stroke.points {
+            stream.push(point);
+        }
+        return stream.finish();
+    }
     let mut cleaned = clean(&stroke.points, options.stroke.pixel_size)?;
     // Where templates must not be run through backward, the direction of drawing has a meaning.
     let backward = options.flips != Flips::None && is_backward(&stroke.points);
@@ -64,6 +73,17 @@ pub(crate) fn fit(stroke: &Stroke, set: &TemplateSet, options: &FrenchCurveOptio
     Ok(if backward { turned_round(fit) } else { fit })
 }
 
+/// An error for a stroke of more steps than anyone draws: each takes time.
+fn too_long(length: f64, options: &FrenchCurveOptions) -> Option<FitError> {
+    let longest = MOST_STEPS * options.spacing;
+    let told = |px: f64| px * options.stroke.pixel_size;
+    // Written so that an overflow to infinity fails too.
+    (!(length <= longest)).then(|| FitError::TooLong { length: told(length), longest: told(longest) })
+}
+
+/// Most steps of a stroke.
+const MOST_STEPS: f64 = 1e5;
+
 fn warn_if_far(fit: &mut Fit, options: &FrenchCurveOptions) {
     let off = fit.report.max_deviation;
     if off > options.max_error * options.stroke.pixel_size {
@@ -73,6 +93,7 @@ fn warn_if_far(fit: &mut Fit, options: &FrenchCurveOptions) {
 }
 
 /// The pieces of a stroke before they are joined.
+#[derive(Clone, Debug)]
 struct Pieces {
     laid: Vec<Laid>,
     /// The points that each covers.
@@ -158,6 +179,9 @@ fn solve(stroke: &Stroke, cleaned: &Cleaned, guides: &[Guide], options: &FrenchC
     let last = track.all.samples[track.turn];
     let data = &track.all.data[..=last];
     let line = Polyline::new(data.iter().map(|d| d.point).collect());
+    if let Some(error) = too_long(line.length(), options) {
+        return Err(error);
+    }
     let mut pieces = if track.shape == Shape::Ring {
         pieces_of_ring(&line, guides, options)
     } else {
@@ -168,10 +192,10 @@ fn solve(stroke: &Stroke, cleaned: &Cleaned, guides: &[Guide], options: &FrenchC
     let joints = joints(&pieces.laid, &pieces.corner_after, pieces.closed, guides);
     if options.mode == Laying::Refined {
         let points: Vec<&[Vec2]> = pieces.points.iter().map(Vec::as_slice).collect();
-        pose::settle_together(&mut pieces.laid, &points, &joints, guides);
+        pose::settle_together(&mut pieces.laid, &points, &joints, guides, options.end_threshold.unwrap_or(f64::INFINITY));
     }
     let links: Vec<Link> = (0..joints.len())
-        .map(|i| link(&pieces.laid[i], &pieces.laid[(i + 1) % pieces.laid.len()], joints[i], guides, options))
+        .map(|i| link(&pieces.laid[i], &pieces.laid[(i + 1) % pieces.laid.len()], joints[i], f64::NEG_INFINITY, guides, options))
         .collect();
     let rough = links.iter().filter(|l| l.rough).count();
     if rough > 0 {
@@ -254,7 +278,3 @@ fn turned_round(fit: FrenchCurveFit) -> FrenchCurveFit {
     let pieces = fit.pieces.into_iter().rev().map(turned).collect();
     FrenchCurveFit { fit: Fit { spline: fit.fit.spline.reversed(), ..fit.fit }, pieces }
 }
-
-/// A closed template that is the whole curve.
-#[expect(dead_code, reason = "not yet")]
-fn whole(_: Continuity) {}
