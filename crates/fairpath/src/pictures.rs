@@ -3,7 +3,9 @@
 use anyhow::Result;
 use fairpath_curve::Spline;
 use fairpath_fit::{Stages, Stroke, TemplateSet, Warning};
-use fairpath_io::picture::{Comb, Layout, PictureOptions, draw_pieces, draw_splines, draw_stages};
+use fairpath_io::picture::{
+    Comb, Layout, Picture, PictureOptions, draw_pieces, draw_splines, draw_stages, draw_templates,
+};
 use fairpath_io::{Encoded, SplineFile, SplineFormat, StrokeFile, WriteOptions, YAxis, encode_splines};
 
 use crate::args::OutputFormat;
@@ -60,6 +62,14 @@ pub(crate) fn with_templates(
 ) -> Result<Vec<u8>> {
     let picture = draw_pieces(file, Some(strokes), templates, &PictureOptions::default());
     Ok(if png { picture.to_png()? } else { picture.to_svg().as_bytes().to_vec() })
+}
+
+/// A picture of sets of French curves, with their joins and curvature if `comb` says so.
+pub(crate) fn sets(sets: &[TemplateSet], comb: bool) -> Picture {
+    let mut options = PictureOptions::default();
+    options.joins = comb;
+    options.comb = if comb { Comb::Auto } else { Comb::Off };
+    draw_templates(sets, &options)
 }
 
 /// The steps of a fit as pictures in the manner of the paper's figure 4: a word for each and its SVG.

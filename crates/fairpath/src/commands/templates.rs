@@ -5,15 +5,14 @@ use std::path::{Path, PathBuf};
 use anyhow::{Result, bail};
 use fairpath_curve::{Continuity, Spline};
 use fairpath_fit::{Template, TemplateSet};
-use fairpath_io::picture::{Comb, PictureOptions, draw_templates};
 use fairpath_io::{SHIPPED_TEMPLATES, encode_templates};
 
 use super::fit_report::plain;
 use super::{Ending, template_sets};
 use crate::args::{OutputFormat, TemplatesArgs};
-use crate::interrupt;
 use crate::output::{Destination, Ready};
 use crate::printer::{Printer, columns};
+use crate::{interrupt, pictures};
 
 pub(crate) fn run(args: &TemplatesArgs, printer: &mut Printer) -> Result<Ending> {
     if let Some(size) = args.pixel_size
@@ -36,7 +35,8 @@ pub(crate) fn run(args: &TemplatesArgs, printer: &mut Printer) -> Result<Ending>
     };
     let bytes = match to.format {
         OutputFormat::Json => encode_templates(&one_set(&sets, args, &to.path)?)?,
-        format => picture(&sets, format, args.comb)?,
+        OutputFormat::Png => pictures::sets(&sets, args.comb).to_png()?,
+        _ => pictures::sets(&sets, args.comb).to_svg().as_bytes().to_vec(),
     };
     let mut ready = Ready::default();
     ready.add(&to.path, bytes);
@@ -69,15 +69,6 @@ fn one_set(sets: &[TemplateSet], args: &TemplatesArgs, output: &Path) -> Result<
     };
     let templates: Vec<Template> = sets.iter().flat_map(|set| set.templates().iter().cloned()).collect();
     Ok(TemplateSet::new(name, templates)?)
-}
-
-/// All sets, each at a scale of its own.
-fn picture(sets: &[TemplateSet], format: OutputFormat, comb: bool) -> Result<Vec<u8>> {
-    let mut options = PictureOptions::default();
-    options.joins = comb;
-    options.comb = if comb { Comb::Auto } else { Comb::Off };
-    let picture = draw_templates(sets, &options);
-    Ok(if format == OutputFormat::Png { picture.to_png()? } else { picture.to_svg().as_bytes().to_vec() })
 }
 
 /// A line for each French curve; lengths are in px.

@@ -113,11 +113,11 @@ fn arguments_of_every_wrong_kind_are_refused() {
         (&["flatten", "in.json"], "unrecognized subcommand"),
         (
             &["fit", "in.json", "--method", "mvc"],
-            "the method mvc is not part of this version; use shortest-path or curvature-space",
+            "the method mvc is not part of this version; use shortest-path, curvature-space or french-curve",
         ),
         (
             &["fit", "in.json", "--method", "magic"],
-            "there is no method of that name; use shortest-path or curvature-space",
+            "there is no method of that name; use shortest-path, curvature-space or french-curve",
         ),
         (&["fit", "in.json", "--preset", "fast"], "lines-arcs"),
         (&["fit", "in.json", "--closed", "maybe"], "auto"),

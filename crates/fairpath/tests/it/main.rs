@@ -3,6 +3,7 @@
 mod bad_input;
 mod endings;
 mod examples;
+mod french_curves;
 mod pipes;
 mod references;
 mod threads;
