@@ -164,6 +164,7 @@ pub(crate) fn settle_together(pieces: &mut [Laid], points: &[&[Vec2]], joints: &
     for round in 0..=RELAXATIONS {
         let mut moved = pieces.to_vec();
         pull(&mut moved, points, joints, &pulls, guides);
+        trim_ends(&mut moved, points, joints, guides);
         let bad: Vec<usize> =
             (0..n).filter(|&i| !(moved[i].distance(guides, points[i]).largest <= allowed[i])).collect();
         if bad.is_empty() || round == RELAXATIONS {
@@ -181,6 +182,21 @@ pub(crate) fn settle_together(pieces: &mut [Laid], points: &[&[Vec2]], joints: &
                     *pull *= RELAXED;
                 }
             }
+        }
+    }
+}
+
+/// Lets the curve end beside the ends of the stroke and of its parts.
+fn trim_ends(pieces: &mut [Laid], points: &[&[Vec2]], joints: &[Joint], guides: &[Guide]) {
+    let n = pieces.len();
+    let free = |i: usize| joints.get(i).is_none_or(|j| *j == Joint::Corner);
+    for i in 0..n {
+        let before = if i > 0 { i - 1 } else { n - 1 };
+        let trimmed = pieces[i].trimmed(guides, points[i]);
+        let from = if free(before) { trimmed.from } else { pieces[i].from };
+        let to = if free(i) { trimmed.to } else { pieces[i].to };
+        if to > from {
+            (pieces[i].from, pieces[i].to) = (from, to);
         }
     }
 }
