@@ -376,7 +376,7 @@ impl Made {
         self.pieces.points.push(Vec::new());
         self.pieces.corner_after.push(false);
         let seen = Seen { used: [entered, self.held], span: [begin, self.length] };
-        let spline = restored_spline(chain.finished(false), frame)?;
+        let spline = restored_spline(chain.finished(false).0, frame)?;
         Some(Committed { piece: described(&laid, seen, &guides[laid.guide], frame), spline })
     }
 }
