@@ -61,6 +61,7 @@ pub(crate) fn best_laid(
     let mut consider = |guide: usize, node: f64| {
         let stretch = within(guides, guide, stretch(guide, node));
         let laid = settled(&by_least_squares(guides, guide, stretch, points), points, guides, neighbours);
+        let laid = laid.trimmed(guides, points);
         let d = laid.distance(guides, points);
         if best.is_none_or(|b| d.rms < b.0) {
             best = Some((d.rms, laid, d.largest));

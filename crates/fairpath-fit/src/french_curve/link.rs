@@ -149,8 +149,10 @@ fn bridge(a: &Laid, b: &Laid, kept: f64, guides: &[Guide]) -> Link {
     let (pa, pb) = (&guides[a.guide].path, &guides[b.guide].path);
     let (end, begin) = (a.pose(pa, a.to), b.pose(pb, b.from));
     let middle = end.point.midpoint(begin.point);
-    let left_at = pa.snapped((a.to - BENT * (a.to - a.from)).max(pa.smooth_stretch(a.to - LEAST)[0]).max(kept));
-    let entered_at = pb.snapped((b.from + BENT * (b.to - b.from)).min(pb.smooth_stretch(b.from + LEAST)[1]));
+    // Corners of the templates stay.
+    let (corner_a, corner_b) = (pa.smooth_stretch(a.to - LEAST)[0], pb.smooth_stretch(b.from + LEAST)[1]);
+    let left_at = pa.snapped((a.to - BENT * (a.to - a.from).min(a.to - corner_a)).max(kept));
+    let entered_at = pb.snapped(b.from + BENT * (b.to - b.from).min(corner_b - b.from));
     let bent = |from: Pose, to: Pose, most: f64| {
         fairpath_curve::hermite_g2(from, to).filter(|chain| chain.iter().map(|s| s.length).sum::<f64>() < most)
     };

@@ -189,10 +189,11 @@ fn solve(stroke: &Stroke, cleaned: &Cleaned, guides: &[Guide], options: &FrenchC
     };
     let mut report =
         Report { points: stroke.points.len(), samples: pieces.cells, cost: pieces.cost, ..Report::default() };
-    let joints = joints(&pieces.laid, &pieces.corner_after, pieces.closed, guides);
+    let mut joints = joints(&pieces.laid, &pieces.corner_after, pieces.closed, guides);
     if options.mode == Laying::Refined {
         let points: Vec<&[Vec2]> = pieces.points.iter().map(Vec::as_slice).collect();
-        pose::settle_together(&mut pieces.laid, &points, &joints, guides, options.end_threshold.unwrap_or(f64::INFINITY));
+        let limit = options.end_threshold.unwrap_or(f64::INFINITY);
+        pose::settle_together(&mut pieces.laid, &points, &mut joints, guides, limit);
     }
     let links: Vec<Link> = (0..joints.len())
         .map(|i| link(&pieces.laid[i], &pieces.laid[(i + 1) % pieces.laid.len()], joints[i], f64::NEG_INFINITY, guides, options))
@@ -230,7 +231,9 @@ fn joined(pieces: &Pieces, joints: &[pose::Joint], links: &[Link], guides: &[Gui
     let mut chain = Chain::default();
     let mut seen = Vec::new();
     let n = pieces.laid.len();
-    let mut begin = 0.0;
+    let last_link = if pieces.closed { links.last() } else { None };
+    // The blend of the last piece with the first is at the end of the curve.
+    let mut begin = -last_link.map_or(0.0, |link| link.between.iter().map(|s| s.length).sum());
     for (i, laid) in pieces.laid.iter().enumerate() {
         let path = &guides[laid.guide].path;
         let before = if i > 0 { Some(i - 1) } else { pieces.closed.then_some(n - 1) };
@@ -244,7 +247,21 @@ fn joined(pieces: &Pieces, joints: &[pose::Joint], links: &[Link], guides: &[Gui
         seen.push(Seen { used: [from, to], span: [begin, chain.length] });
         begin = left;
     }
-    (chain.finished(pieces.closed), seen)
+    let length = chain.length;
+    let (parts, off) = chain.finished(pieces.closed);
+    for seen in &mut seen {
+        seen.span = along(seen.span.map(|s| s - off), length, pieces.closed);
+    }
+    (parts, seen)
+}
+
+/// A span that begins on a curve of given length; on a closed one it may run on through the start.
+fn along([from, to]: [f64; 2], length: f64, closed: bool) -> [f64; 2] {
+    if closed {
+        let off = length * libm::floor(from / length);
+        return [from - off, to - off];
+    }
+    [from.max(0.0), to.min(length)]
 }
 
 /// What a caller is told of a piece.
@@ -270,9 +287,10 @@ fn described(laid: &Laid, seen: Seen, guide: &Guide, cleaned: &Cleaned) -> Templ
 /// The fit of the reversed stroke as one of the stroke.
 fn turned_round(fit: FrenchCurveFit) -> FrenchCurveFit {
     let length = fit.fit.spline.length();
+    let closed = fit.fit.spline.is_closed();
     let turned = |p: TemplatePiece| TemplatePiece {
         backward: !p.backward,
-        span: [(length - p.span[1]).max(0.0), length - p.span[0]],
+        span: along([length - p.span[1], length - p.span[0]], length, closed),
         ..p
     };
     let pieces = fit.pieces.into_iter().rev().map(turned).collect();

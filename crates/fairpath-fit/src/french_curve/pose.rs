@@ -5,7 +5,7 @@
 //! Along the templates they may slide. The matrix couples neighbours only, so that a step takes time linear in the number of pieces.
 
 use super::guide::Guide;
-use super::joints::goes_straight_on;
+use super::joints::{goes_straight_on, only_whole_lines};
 use super::laid::{Laid, SLIDE};
 use crate::linear::{cholesky, solve};
 use fairpath_curve::{Pose, Vec2, trig};
@@ -152,18 +152,30 @@ fn weights(joint: Joint) -> [f64; 2] {
 
 /// All pieces settled together: `points` has those of each piece, and `joints` how each meets the next, the last the first if there are as many.
 ///
-/// No piece is drawn further from its points than `limit`, or than it was: what meets such a piece is relaxed, and all is begun anew.
-pub(crate) fn settle_together(pieces: &mut [Laid], points: &[&[Vec2]], joints: &[Joint], guides: &[Guide], limit: f64) {
+/// No piece is drawn further from its points than `limit`, or than it was: what meets such a piece is relaxed, and all is begun anew. A long line
+/// may be drawn a little bowed; where it is bowed too much, it becomes several that are blended.
+pub(crate) fn settle_together(
+    pieces: &mut [Laid],
+    points: &[&[Vec2]],
+    joints: &mut [Joint],
+    guides: &[Guide],
+    limit: f64,
+) {
     let n = pieces.len();
     if n < 2 {
         return;
     }
-    let allowed: Vec<f64> =
+    let alone: Vec<f64> =
         pieces.iter().zip(points).map(|(l, p)| limit.max(WORSE * l.distance(guides, p).largest)).collect();
     let mut pulls = vec![1.0; joints.len()];
-    for round in 0..=RELAXATIONS {
+    let mut round = 0;
+    loop {
+        let lines = line_lengths(pieces, joints);
+        let bowed = |i: usize| (BOW * lines[i]).min(MOST_BOWED * limit);
+        let allowed: Vec<f64> = (0..n).map(|i| alone[i].max(bowed(i))).collect();
         let mut moved = pieces.to_vec();
         pull(&mut moved, points, joints, &pulls, guides);
+        trim_ends(&mut moved, points, joints, guides);
         let bad: Vec<usize> =
             (0..n).filter(|&i| !(moved[i].distance(guides, points[i]).largest <= allowed[i])).collect();
         if bad.is_empty() || round == RELAXATIONS {
@@ -174,13 +186,52 @@ pub(crate) fn settle_together(pieces: &mut [Laid], points: &[&[Vec2]], joints: &
             }
             return;
         }
-        for i in bad {
-            let before = if i > 0 { i - 1 } else { n - 1 };
-            for joint in [before, i] {
-                if let Some(pull) = pulls.get_mut(joint) {
-                    *pull *= RELAXED;
-                }
-            }
+        let beside = |i: &usize| [if *i > 0 { i - 1 } else { n - 1 }, *i];
+        let around: Vec<usize> = bad.iter().flat_map(beside).filter(|j| *j < joints.len()).collect();
+        let straight: Vec<usize> = around.iter().copied().filter(|&j| joints[j] == Joint::Straight).collect();
+        if straight.is_empty() {
+            around.into_iter().for_each(|j| pulls[j] *= RELAXED);
+            round += 1;
+        } else {
+            straight.into_iter().for_each(|j| joints[j] = Joint::Smooth);
+            only_whole_lines(joints, pieces, guides);
+        }
+    }
+}
+
+/// For each piece the length of all that are one line with it, px; nothing for those that are blended on both sides.
+fn line_lengths(pieces: &[Laid], joints: &[Joint]) -> Vec<f64> {
+    let n = pieces.len();
+    let mut out = vec![0.0; n];
+    let mut first = 0;
+    while first < n {
+        let mut last = first;
+        while last + 1 < n && joints[last] == Joint::Straight {
+            last += 1;
+        }
+        if last > first {
+            out[first..=last].fill(pieces[first..=last].iter().map(|l| l.to - l.from).sum());
+        }
+        first = last + 1;
+    }
+    out
+}
+
+/// By how much of its length a line may be drawn bowed, and at most by how many times what a piece may be off.
+const BOW: f64 = 0.04;
+const MOST_BOWED: f64 = 2.5;
+
+/// Lets the curve end beside the ends of the stroke and of its parts.
+fn trim_ends(pieces: &mut [Laid], points: &[&[Vec2]], joints: &[Joint], guides: &[Guide]) {
+    let n = pieces.len();
+    let free = |i: usize| joints.get(i).is_none_or(|j| *j == Joint::Corner);
+    for i in 0..n {
+        let before = if i > 0 { i - 1 } else { n - 1 };
+        let trimmed = pieces[i].trimmed(guides, points[i]);
+        let from = if free(before) { trimmed.from } else { pieces[i].from };
+        let to = if free(i) { trimmed.to } else { pieces[i].to };
+        if to > from {
+            (pieces[i].from, pieces[i].to) = (from, to);
         }
     }
 }

@@ -300,12 +300,15 @@ impl FrenchCurveStream {
         let first = self.part.first;
         // A step that fits nothing is taken alone.
         let (mut last, mut found) = self.part.best.unwrap_or_else(|| (first + 1, self.part.best_match(first + 1, &self.guides)));
-        let neighbours = Neighbours { before: self.made.end() };
-        let (laid, error) = loop {
+        // It is to meet the piece before, if that does not draw it off the stroke.
+        let before = Neighbours { before: self.made.end() };
+        let (laid, error) = 'shorter: loop {
             let (part, section) = self.part.alone(last, found, &self.options);
-            let (laid, off) = best_laid(section, found.error, &part, &self.guides, &neighbours, &self.options);
-            if last == first + 1 || self.options.end_threshold.is_none_or(|threshold| off <= threshold) {
-                break (laid, found.error);
+            for neighbours in [&before, &Neighbours::NONE] {
+                let (laid, off) = best_laid(section, found.error, &part, &self.guides, neighbours, &self.options);
+                if last == first + 1 || self.options.end_threshold.is_none_or(|threshold| off <= threshold) {
+                    break 'shorter (laid, found.error);
+                }
             }
             last = (first + (last - first) * 2 / 3).max(first + 1);
             found = self.part.best_match(last, &self.guides);
@@ -373,7 +376,7 @@ impl Made {
         self.pieces.points.push(Vec::new());
         self.pieces.corner_after.push(false);
         let seen = Seen { used: [entered, self.held], span: [begin, self.length] };
-        let spline = restored_spline(chain.finished(false), frame)?;
+        let spline = restored_spline(chain.finished(false).0, frame)?;
         Some(Committed { piece: described(&laid, seen, &guides[laid.guide], frame), spline })
     }
 }
