@@ -91,4 +91,4 @@ pub(crate) fn goes_straight_on(a: &Laid, b: &Laid, guides: &[Guide]) -> bool {
 const NEAR: f64 = 1e-3;
 
 /// Straight pieces that meet at less than this are meant as one line, radians.
-const LARGEST_TURN: f64 = 0.2;
+const LARGEST_TURN: f64 = 0.3;

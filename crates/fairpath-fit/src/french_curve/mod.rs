@@ -17,6 +17,7 @@ mod segmentation;
 mod stream;
 mod template;
 mod turning;
+mod whole;
 
 pub use options::{CornerSource, Flips, FrenchCurveOptions, Laying, PieceSearch};
 pub use piece::TemplatePiece;
@@ -40,6 +41,7 @@ use laid::Laid;
 use link::{Link, link};
 use part::Part;
 use segmentation::{Section, sections};
+use whole::{all_around, whole};
 
 /// A stroke neatened with French curves.
 #[derive(Clone, Debug, PartialEq)]
@@ -150,8 +152,7 @@ fn pieces_of_parts(track: &Track, line: &Polyline, guides: &[Guide], options: &F
 }
 
 /// The pieces of a smoothly closed stroke.
-fn pieces_of_ring(line: &Polyline, guides: &[Guide], options: &FrenchCurveOptions) -> Pieces {
-    let ring = Part::ring(line, options.spacing, options.curvature_window);
+fn pieces_of_ring(ring: Part, guides: &[Guide], options: &FrenchCurveOptions) -> Pieces {
     // The seam is no place to break at: in two turns the break nearest to the middle is one that both sides want.
     let n = ring.cells();
     let twice: Vec<f64> = ring.turnings.iter().chain(&ring.turnings).copied().collect();
@@ -182,13 +183,25 @@ fn solve(stroke: &Stroke, cleaned: &Cleaned, guides: &[Guide], options: &FrenchC
     if let Some(error) = too_long(line.length(), options) {
         return Err(error);
     }
-    let mut pieces = if track.shape == Shape::Ring {
-        pieces_of_ring(&line, guides, options)
-    } else {
-        pieces_of_parts(&track, &line, guides, options)
+    let ring =
+        (track.shape == Shape::Ring).then(|| Part::ring(&line, options.spacing, options.curvature_window));
+    let mut pieces = match &ring {
+        Some(ring) => pieces_of_ring(ring.clone(), guides, options),
+        None => pieces_of_parts(&track, &line, guides, options),
     };
     let mut report =
         Report { points: stroke.points.len(), samples: pieces.cells, cost: pieces.cost, ..Report::default() };
+    let most = pieces.cost + WHOLE_IS_WORTH * options.piece_cost;
+    if let Some((laid, error)) = ring.as_ref().and_then(|ring| whole(ring, guides, most, options)) {
+        let length = guides[laid.guide].path.length();
+        let seen = Seen { used: [0.0, length], span: [0.0, length] };
+        if let Some(spline) = restored_spline(all_around(&laid, guides), cleaned) {
+            report.cost = error + options.piece_cost;
+            describe(&mut report, &spline, stroke, options.stroke.pixel_size);
+            let piece = described(&laid, seen, &guides[laid.guide], cleaned);
+            return Ok(FrenchCurveFit { fit: Fit { spline, report, warnings }, pieces: vec![piece] });
+        }
+    }
     let mut joints = joints(&pieces.laid, &pieces.corner_after, pieces.closed, guides);
     if options.mode == Laying::Refined {
         let points: Vec<&[Vec2]> = pieces.points.iter().map(Vec::as_slice).collect();
@@ -216,6 +229,9 @@ fn solve(stroke: &Stroke, cleaned: &Cleaned, guides: &[Guide], options: &FrenchC
     describe(&mut report, &spline, stroke, options.stroke.pixel_size);
     Ok(FrenchCurveFit { fit: Fit { spline, report, warnings }, pieces: out })
 }
+
+/// A template that closes by itself may err by as much more as so many pieces cost.
+const WHOLE_IS_WORTH: f64 = 2.0;
 
 /// Where a piece is used and seen.
 #[derive(Clone, Copy, Debug)]

@@ -29,6 +29,10 @@ impl Path {
         Self { spline, stations, corners }
     }
 
+    pub(crate) fn spline(&self) -> &Spline {
+        &self.spline
+    }
+
     pub(crate) fn length(&self) -> f64 {
         self.stations[self.stations.len() - 1]
     }
