@@ -9,7 +9,7 @@ use anyhow::{Context, Result, bail};
 use serde_json::Value;
 
 use crate::steps::{Outcome, Steps};
-use crate::{bench, data, limits, process, table, tools, tree};
+use crate::{bench, data, limits, process, rectilinear, table, tools, tree};
 
 const HEADER: &[&str] = &[
     "file",
@@ -43,6 +43,9 @@ pub(crate) fn run(names: &[String]) -> Result<()> {
     process::run(&mut process::cargo(&["build", "--release", "--package", "fairpath"]))?;
     let mut steps = Steps::default();
     add_steps(&mut steps, names);
+    if names.is_empty() {
+        rectilinear::add_step(&mut steps);
+    }
     steps.finish()
 }
 

@@ -9,6 +9,7 @@ mod judges;
 mod layers;
 mod limits;
 mod process;
+mod rectilinear;
 mod steps;
 mod table;
 mod table1;

@@ -4,7 +4,7 @@ use anyhow::{Result, bail};
 
 use crate::process::{cargo, run as run_command};
 use crate::steps::{Outcome, Steps};
-use crate::{evaluate, generate, judges, layers, process, tools, tree};
+use crate::{evaluate, generate, judges, layers, process, rectilinear, tools, tree};
 
 /// Runs everything that can tell whether the project is sound.
 pub(crate) fn run() -> Result<()> {
@@ -31,6 +31,7 @@ pub(crate) fn run() -> Result<()> {
     });
     add_judges(&mut steps);
     evaluate::add_steps(&mut steps, &[]);
+    rectilinear::add_step(&mut steps);
     steps.finish()
 }
 

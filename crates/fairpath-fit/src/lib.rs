@@ -46,8 +46,8 @@ pub use edit::{
     smooth_corner,
 };
 pub use french_curve::{
-    CornerSource, Flips, FrenchCurveFit, FrenchCurveOptions, Laying, PieceSearch, Template, TemplateError,
-    TemplatePiece, TemplateSet,
+    Committed, CornerSource, Flips, FrenchCurveFit, FrenchCurveOptions, FrenchCurveStream, Laying, PieceSearch,
+    Template, TemplateError, TemplatePiece, TemplateSet,
 };
 pub use options::{ClosedSearch, Closing, Deviation, FitOptions, Preset, Resampling, Search, Transitions};
 pub use oversketch::{

@@ -99,6 +99,14 @@ pub enum FitError {
         /// The largest that is accepted.
         largest: f64,
     },
+    /// The drawing is too long for the steps in which it is compared with templates.
+    #[error("the stroke is {length:e} long, more than {longest:e}; divide it, or set a larger pixel size or spacing")]
+    TooLong {
+        /// Its length.
+        length: f64,
+        /// The longest that is accepted.
+        longest: f64,
+    },
     /// A coordinate is NaN or infinite.
     #[error("point {index} of the stroke has a coordinate that is not a finite number; remove or repair it")]
     NotFinite {
@@ -130,6 +138,7 @@ impl FitError {
         match self {
             Self::TooShort { .. } => "too-short",
             Self::TooLarge { .. } => "too-large",
+            Self::TooLong { .. } => "too-long",
             Self::NotFinite { .. } => "not-finite",
             Self::Unfittable { .. } => "unfittable",
             Self::BadOption { .. } => "bad-option",

@@ -4,11 +4,12 @@
 mod example;
 
 use example::{entry, ribbon, shapes};
-use fairpath_curve::{Kind, Point, Segment};
-use fairpath_fit::{Candidate, Stages, Stroke};
-use fairpath_io::picture::{Comb, Layout, PictureOptions, draw_splines, draw_stages};
+use fairpath_curve::{Kind, Point, Segment, Similarity, Vec2};
+use fairpath_fit::{Candidate, Stages, Stroke, Template, TemplateSet};
+use fairpath_io::picture::{Comb, Layout, PictureOptions, draw_pieces, draw_splines, draw_stages, draw_templates};
 use fairpath_io::{
-    DxfEntities, Failure, SplineFile, SplineFormat, StrokeFile, WriteOptions, YAxis, encode_splines, write_whole,
+    DxfEntities, Failure, SHIPPED_TEMPLATES, SplineFile, SplineFormat, StrokeFile, UsedPiece, UsedTemplates,
+    WriteOptions, YAxis, encode_splines, shipped_templates, write_whole,
 };
 use std::path::Path;
 
@@ -189,4 +190,60 @@ fn what_would_never_end_is_refused_by_approximating_writers_and_kept_by_exact_on
     for format in [SplineFormat::Json, SplineFormat::Csv, SplineFormat::Png] {
         assert!(encode_splines(&file, format, None, &WriteOptions::default()).is_ok());
     }
+}
+
+#[test]
+fn a_board_shows_every_template_within_the_page() {
+    let sets: Vec<TemplateSet> = SHIPPED_TEMPLATES.iter().map(|name| shipped_templates(name).unwrap()).collect();
+    let picture = draw_templates(&sets, &PictureOptions::default());
+    let (width, height) = picture.size_px();
+    assert!(width == 1600.0 && height < 2.0 * width, "{width} x {height}");
+    let outlines: Vec<&str> = picture.to_svg().lines().filter(|line| line.contains("stroke=\"#59636f\"")).collect();
+    assert_eq!(outlines.len(), sets.iter().map(|set| set.templates().len()).sum::<usize>());
+    let closed = sets.iter().flat_map(TemplateSet::templates).filter(|t| t.spline().is_closed()).count();
+    assert_eq!(outlines.iter().filter(|line| line.contains("fill=\"#f4e9c8\"")).count(), closed);
+    for outline in outlines {
+        let data = outline.split('"').nth(1).unwrap();
+        let numbers = data.split(|c: char| !"0123456789.-".contains(c)).filter(|number| !number.is_empty());
+        let numbers: Vec<f64> = numbers.map(|number| number.parse().unwrap()).collect();
+        for pair in numbers.chunks(2) {
+            assert!((0.0..=width).contains(&pair[0]) && (0.0..=height).contains(&pair[1]), "{pair:?} in {data}");
+        }
+    }
+    keep("templates.png", &picture.to_png().unwrap());
+}
+
+#[test]
+fn pieces_are_drawn_where_they_lie_and_in_the_legend_moved_apart_where_they_overlap() {
+    let mut file = shapes();
+    let ribbon = file.splines[0].spline.clone();
+    let set = TemplateSet::new("own", vec![Template::new("ribbon", ribbon.clone()).unwrap()]).unwrap();
+    let piece = |offset: f64, length: f64| UsedPiece {
+        template: "ribbon".into(),
+        offset,
+        length,
+        backward: false,
+        turned_over: false,
+        transform: Similarity::translate(Vec2::new(0.0, 3.0)),
+        span: [offset, offset + length],
+    };
+    let gone = UsedPiece { template: "not in the set".into(), ..piece(0.0, 10.0) };
+    let pieces = vec![piece(0.0, 300.0), piece(200.0, 200.0), piece(500.0, 100.0), gone];
+    file.splines[0].templates = Some(UsedTemplates { set: "own".into(), pieces });
+    let picture = draw_pieces(&file, None, &set, &PictureOptions::default());
+    let svg = picture.to_svg();
+    // Each of the three pieces has an outline, a band, a part over the stroke and one in the legend.
+    for colour in ["#d7263d", "#2166c4", "#e08a00"] {
+        assert_eq!(svg.matches(&format!("stroke=\"{colour}\"")).count(), 4, "{colour}");
+    }
+    assert!(!svg.contains("#1a9850"), "a piece of an unknown template was drawn");
+    let legend = svg.split("<clipPath id=\"legend\">").nth(1).unwrap();
+    let first_point = |colour: &str| {
+        let line = legend.lines().find(|line| line.contains(colour)).unwrap();
+        line.split('"').nth(1).unwrap().to_owned()
+    };
+    assert_ne!(first_point("#d7263d"), first_point("#2166c4"));
+    keep("pieces.png", &picture.to_png().unwrap());
+    // A file without pieces has no legend, and nothing is taken amiss.
+    assert!(!draw_pieces(&shapes(), None, &set, &PictureOptions::default()).to_svg().contains("legend"));
 }

@@ -7,8 +7,8 @@ use chain::chain;
 use fairpath_curve::{Continuity, Point, Spline};
 use fairpath_fit::Stroke;
 use fairpath_io::{
-    ReadOptions, SplineEntry, SplineFile, SplineFormat, StrokeFile, StrokeFormat, Unit, WriteOptions, YAxis,
-    encode_splines, encode_strokes, read_splines_from, read_strokes_from,
+    ReadOptions, SplineEntry, SplineFile, SplineFormat, StrokeFile, StrokeFormat, TemplateOptions, Unit, WriteOptions,
+    YAxis, encode_splines, encode_strokes, read_splines_from, read_strokes_from, read_templates_from,
 };
 use proptest::collection::vec;
 use proptest::prelude::*;
@@ -130,6 +130,9 @@ fn read_as_everything(bytes: &[u8]) {
     for format in SPLINE_FORMATS.map(Some).into_iter().chain([None]) {
         let _ = read_splines_from(bytes, "any", format, &options);
     }
+    let mut templates = TemplateOptions::default();
+    templates.read = options;
+    let _ = read_templates_from(bytes, "any", &templates);
 }
 
 proptest! {

@@ -228,7 +228,8 @@ pub struct TemplatesArgs {
     #[arg(value_name = "SET")]
     pub inputs: Vec<PathBuf>,
 
-    /// Where the French curves of all inputs go as one set: json, or a picture as svg or png; `-` is standard output
+    /// Where they go: as json, the French curves of all inputs as one set; as svg or png, a picture of each set; `-` is
+    /// standard output
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<PathBuf>,
 

@@ -4,8 +4,8 @@ use anyhow::Result;
 use fairpath_curve::Spline;
 use fairpath_fit::{CurvatureStages, Stages, Stroke, TemplateSet, Warning};
 use fairpath_io::picture::{
-    Comb, Correction, Layout, PictureOptions, StagePicture, draw_corrections, draw_curvature_stages, draw_pieces,
-    draw_splines, draw_stages,
+    Comb, Correction, Layout, Picture, PictureOptions, StagePicture, draw_corrections, draw_curvature_stages,
+    draw_pieces, draw_splines, draw_stages, draw_templates,
 };
 use fairpath_io::{Encoded, SplineFile, SplineFormat, StrokeFile, WriteOptions, YAxis, encode_splines};
 
@@ -63,6 +63,14 @@ pub(crate) fn with_templates(
 ) -> Result<Vec<u8>> {
     let picture = draw_pieces(file, Some(strokes), templates, &PictureOptions::default());
     Ok(if png { picture.to_png()? } else { picture.to_svg().as_bytes().to_vec() })
+}
+
+/// A picture of sets of French curves, with their joins and curvature if `comb` says so.
+pub(crate) fn sets(sets: &[TemplateSet], comb: bool) -> Picture {
+    let mut options = PictureOptions::default();
+    options.joins = comb;
+    options.comb = if comb { Comb::Auto } else { Comb::Off };
+    draw_templates(sets, &options)
 }
 
 /// A picture with a row for each correction, as SVG or PNG.

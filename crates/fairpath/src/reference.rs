@@ -5,8 +5,9 @@ use std::fmt::Write as _;
 use clap::CommandFactory;
 use fairpath_fit::{
     CubicOptions, CurvatureSpaceOptions, FitOptions, FrenchCurveOptions, LaplacianOptions, MvcOptions,
-    OversketchOptions, Preset,
+    OversketchOptions, Preset, TemplateSet,
 };
+use fairpath_io::{SHIPPED_TEMPLATES, shipped_templates};
 use fairpath_shape::InflateOptions;
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -14,11 +15,22 @@ use serde_json::Value;
 
 use crate::args::{Cli, preset_name};
 use crate::parameters::{self, Parameter};
+use crate::pictures;
 
 /// Every reference: file name and text.
 #[must_use]
 pub fn all() -> Vec<(String, String)> {
-    vec![("command-line.md".into(), command_line()), ("parameters.md".into(), parameters_page())]
+    vec![
+        ("command-line.md".into(), command_line()),
+        ("parameters.md".into(), parameters_page()),
+        ("templates.svg".into(), templates_page()),
+    ]
+}
+
+/// The sets of French curves that come along, as `fairpath templates -o FILE.svg` draws them.
+fn templates_page() -> String {
+    let sets: Vec<TemplateSet> = SHIPPED_TEMPLATES.into_iter().filter_map(shipped_templates).collect();
+    pictures::sets(&sets, false).to_svg().to_owned()
 }
 
 fn command_line() -> String {

@@ -62,13 +62,21 @@ impl Chain {
         self.next = Some(if fused { Seam::Fused } else { Seam::Joined(last) });
     }
 
-    /// The segments with their joins; if `closed`, the last runs into the first as the last link told.
-    pub(crate) fn finished(mut self, closed: bool) -> Parts {
+    /// The segments with their joins; if `closed`, the last runs into the first as the last link told. A closed curve begins where no line is to be
+    /// made of two: by how much that is later than it was is given too, px.
+    pub(crate) fn finished(mut self, closed: bool) -> (Parts, f64) {
+        let mut off = 0.0;
         if closed {
             self.seams.push(self.next.unwrap_or(Seam::Joined(Continuity::G0)));
+            let whole = self.seams.iter().rposition(|s| *s != Seam::Fused).map_or(0, |i| i + 1) % self.seams.len();
+            if self.seams.last() == Some(&Seam::Fused) {
+                off = self.segments[..whole].iter().map(|s| s.length).sum();
+                self.segments.rotate_left(whole);
+                self.seams.rotate_left(whole);
+            }
         }
         let (segments, joins) = fused(&self.segments, &self.seams);
-        (run_on(segments, &joins), joins, closed)
+        ((run_on(segments, &joins), joins, closed), off)
     }
 }
 
@@ -87,7 +95,7 @@ fn fused(segments: &[Segment], seams: &[Seam]) -> (Vec<Segment>, Vec<Continuity>
         }
         let join = match seams.get(last) {
             Some(Seam::Joined(join)) => Some(*join),
-            // The seam of a closed curve stays where it is.
+            // A closed curve that is nothing but lines to be made one is none.
             Some(Seam::Fused) => Some(Continuity::G0),
             None => None,
         };

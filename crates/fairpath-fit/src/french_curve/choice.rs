@@ -31,9 +31,11 @@ pub(crate) fn fitting(
     let mut waiting = vec![(section, error)];
     while let Some((section, error)) = waiting.pop() {
         let Section { first, last, .. } = section;
-        let (laid, off) = best_laid(section, error, part, guides, options);
+        let (laid, off) = best_laid(section, error, part, guides, &Neighbours::NONE, options);
         let fits = options.end_threshold.is_none_or(|threshold| off <= threshold);
-        match if fits { None } else { halves(first, last, part, guides) } {
+        // Both halves together err no more than the whole, unless corners of templates are in the way.
+        let halved = |most: f64| if fits { None } else { halves([first, last], most, part, guides) };
+        match halved(error + ROUNDING).or_else(|| halved(f64::INFINITY)) {
             None => out.push(Chosen { laid, first, last }),
             Some([left, right]) => waiting.extend([right, left]),
         }
@@ -47,6 +49,7 @@ pub(crate) fn best_laid(
     error: f64,
     part: &Part,
     guides: &[Guide],
+    neighbours: &Neighbours,
     options: &FrenchCurveOptions,
 ) -> (Laid, f64) {
     let Section { first, last, guide, node } = section;
@@ -55,14 +58,16 @@ pub(crate) fn best_laid(
         let from = node * guides[guide].step;
         [from, from + part.step * (last - first) as f64]
     };
+    let roomy = |guide: usize, node: usize| guides[guide].with_room(node, last - first);
     if options.mode == Laying::Faithful {
-        let laid = by_ends(guides, guide, within(guides, guide, stretch(guide, node as f64)), points);
+        let laid = by_ends(guides, guide, within(guides, guide, stretch(guide, roomy(guide, node))), points);
         return (laid, laid.ends_off(guides, points));
     }
     let mut best: Option<(f64, Laid, f64)> = None;
     let mut consider = |guide: usize, node: f64| {
         let stretch = within(guides, guide, stretch(guide, node));
-        let laid = settled(&by_least_squares(guides, guide, stretch, points), points, guides, &Neighbours::NONE);
+        let laid = settled(&by_least_squares(guides, guide, stretch, points), points, guides, neighbours);
+        let laid = laid.trimmed(guides, points);
         let d = laid.distance(guides, points);
         if best.is_none_or(|b| d.rms < b.0) {
             best = Some((d.rms, laid, d.largest));
@@ -77,8 +82,9 @@ pub(crate) fn best_laid(
     }
     let mut nearest = (guide, node as f64);
     for place in places {
-        if consider(place.guide, place.node as f64) {
-            nearest = (place.guide, place.node as f64);
+        let node = roomy(place.guide, place.node);
+        if consider(place.guide, node) {
+            nearest = (place.guide, node);
         }
     }
     // Between nodes.
@@ -103,7 +109,7 @@ const MOST_PLACES: usize = 8;
 
 /// The places on all guides that fit a section nearly as well as the best.
 fn alike(section: Section, error: f64, part: &Part, guides: &[Guide], slack: f64) -> Vec<Match> {
-    let mut growth = Growth::new(guides, false);
+    let mut growth = Growth::new(guides, false, section.last - section.first);
     for &turning in &part.turnings[section.first..section.last] {
         growth.push(turning, guides, error + slack);
     }
@@ -121,8 +127,12 @@ fn within(guides: &[Guide], guide: usize, [from, to]: [f64; 2]) -> [f64; 2] {
     [from, from + length]
 }
 
-/// The two sections into which one is divided with the least error, with their errors; nothing for a section of one step.
-fn halves(first: usize, last: usize, part: &Part, guides: &[Guide]) -> Option<[(Section, f64); 2]> {
+/// Sums of the same differences in another order may differ by so much, radians.
+const ROUNDING: f64 = 1e-9;
+
+/// The two sections into which one is divided with the least error, with their errors, none of them more than `most`; nothing for a section
+/// of one step.
+fn halves([first, last]: [usize; 2], most: f64, part: &Part, guides: &[Guide]) -> Option<[(Section, f64); 2]> {
     let n = last - first;
     if n < 2 {
         return None;
@@ -130,14 +140,14 @@ fn halves(first: usize, last: usize, part: &Part, guides: &[Guide]) -> Option<[(
     let margin = (n / LEAST_SHARE).max(1);
     let cells = &part.turnings[first..last];
     let mut left = vec![None; n + 1];
-    let mut growth = Growth::new(guides, false);
+    let mut growth = Growth::new(guides, false, last - first);
     for (k, &turning) in cells[..n - margin].iter().enumerate() {
-        left[k + 1] = growth.push(turning, guides, f64::INFINITY);
+        left[k + 1] = growth.push(turning, guides, most);
     }
-    let mut growth = Growth::new(guides, true);
+    let mut growth = Growth::new(guides, true, last - first);
     let mut best: Option<(f64, usize, Match, Match)> = None;
     for k in (margin..n).rev() {
-        let right = growth.push(cells[k], guides, f64::INFINITY);
+        let right = growth.push(cells[k], guides, most);
         if let (Some(l), Some(r)) = (left[k], right)
             && best.is_none_or(|b| l.error + r.error < b.0)
         {

@@ -32,12 +32,21 @@ pub(crate) struct Growth {
 }
 
 impl Growth {
-    /// An empty stretch, which fits everywhere where a piece may begin.
-    pub(crate) fn new(guides: &[Guide], backward: bool) -> Self {
+    /// An empty stretch that will have at most `longest` steps. It fits everywhere where a piece may begin; where a guide is a line or an arc for
+    /// longer than that, one of many equal places stands for all.
+    pub(crate) fn new(guides: &[Guide], backward: bool, longest: usize) -> Self {
         let mut runners = Vec::new();
         for (g, guide) in (0..).zip(guides) {
-            let open = (0..).zip(&guide.gate).filter(|(_, gate)| **gate == 0.0);
-            runners.extend(open.map(|(k, _)| Runner { guide: g, from: k, at: k, error: 0.0 }));
+            let evenness = if backward { guide.even_before() } else { guide.even_after() };
+            let is_like_the_one_before = |k: usize| {
+                let even = if backward { evenness[k] } else { evenness[k - 1] };
+                even > longest && guide.gate[k - 1] == 0.0
+            };
+            for (k, &gate) in guide.gate.iter().enumerate() {
+                if gate == 0.0 && (k == 0 || !is_like_the_one_before(k)) {
+                    runners.push(Runner { guide: g, from: k as u32, at: k as u32, error: 0.0 });
+                }
+            }
         }
         Self { runners, backward }
     }
@@ -77,9 +86,9 @@ impl Growth {
         best
     }
 
-    /// How many places are still compared.
-    pub(crate) fn len(&self) -> usize {
-        self.runners.len()
+    /// Whether nothing fits any more.
+    pub(crate) fn is_empty(&self) -> bool {
+        self.runners.is_empty()
     }
 
     /// The fits of the whole stretch that are better than those beside them on their guides, at most `most`, the best first.

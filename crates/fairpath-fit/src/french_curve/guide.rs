@@ -22,6 +22,35 @@ pub(crate) struct Guide {
     /// For each node nothing if a piece may begin or end there, else infinity: what is compared near a corner of the path is the corner already,
     /// so a piece holds it and enough of both sides, or nothing of it.
     pub(crate) gate: Vec<f64>,
+    /// See [`Guide::even_after`] and [`Guide::even_before`].
+    evenness: [Vec<usize>; 2],
+}
+
+/// Length of a line or an arc kept free on each side of a piece, px.
+const ROOM: f64 = 30.0;
+
+/// Turnings that differ by less than this are rounding, radians.
+const EVEN: f64 = 1e-9;
+
+/// For each node, on how many steps in a row after it and before it a path turns alike.
+fn evenness(turnings: &[f64], closed: bool) -> [Vec<usize>; 2] {
+    let cells = turnings.len();
+    let nodes = cells + usize::from(!closed);
+    if closed && turnings.iter().all(|t| (t - turnings[0]).abs() < EVEN) {
+        return [vec![usize::MAX; nodes], vec![usize::MAX; nodes]];
+    }
+    // The first node of a closed path counts as an end: a little more is compared then than need be.
+    let (mut after, mut before) = (vec![0; cells + 1], vec![0; cells + 1]);
+    let alike = |a: usize, b: usize| (turnings[a] - turnings[b]).abs() < EVEN;
+    for k in (0..cells).rev() {
+        after[k] = if k + 1 < cells && alike(k, k + 1) { after[k + 1] + 1 } else { 1 };
+    }
+    for k in 1..=cells {
+        before[k] = if k > 1 && alike(k - 1, k - 2) { before[k - 1] + 1 } else { 1 };
+    }
+    after.truncate(nodes);
+    before.truncate(nodes);
+    [after, before]
 }
 
 impl Guide {
@@ -32,6 +61,34 @@ impl Guide {
 
     pub(crate) fn is_closed(&self) -> bool {
         self.path.is_closed()
+    }
+
+    /// Whether another way of using the same template is no other: a line is a line from either end.
+    fn is_same(&self, other: &Self) -> bool {
+        let pairs = || self.turnings.iter().zip(&other.turnings);
+        self.template == other.template && self.scale == other.scale && pairs().all(|(a, b)| (a - b).abs() < EVEN)
+    }
+
+    /// For each node, on how many steps in a row from there the path turns alike.
+    pub(crate) fn even_after(&self) -> &[usize] {
+        &self.evenness[0]
+    }
+
+    /// For each node, on how many steps in a row up to there the path turns alike.
+    pub(crate) fn even_before(&self) -> &[usize] {
+        &self.evenness[1]
+    }
+
+    /// A place as good as `node` for a piece of so many steps: on a line or an arc the ends of the piece keep off its ends, so that there is
+    /// room to prolong it.
+    pub(crate) fn with_room(&self, node: usize, steps: usize) -> f64 {
+        let place = node as f64;
+        if self.is_closed() || self.even_after()[node] < steps {
+            return place;
+        }
+        let (low, high) = (place - self.even_before()[node] as f64, place + (self.even_after()[node] - steps) as f64);
+        let room = (ROOM / self.step).min(0.5 * (high - low));
+        place.max(low + room).min(high - room)
     }
 
     /// Takes the template as it was drawn to the path.
@@ -53,7 +110,8 @@ impl Guide {
             gate.fill(0.0);
         }
         let Use { backward, turned_over, scale } = use_;
-        Self { template, backward, turned_over, scale, path, turnings, step, gate }
+        let evenness = evenness(&turnings, path.is_closed());
+        Self { template, backward, turned_over, scale, path, turnings, step, gate, evenness }
     }
 }
 
@@ -104,7 +162,10 @@ pub(crate) fn guides(set: &TemplateSet, options: &FrenchCurveOptions) -> Vec<Gui
                 let drawn =
                     curve.spline().transformed(&Similarity { mirror: turned_over, scale, ..Similarity::IDENTITY });
                 let path = Path::new(if backward { drawn.reversed() } else { drawn });
-                out.push(Guide::new(template, path, options, Use { backward, turned_over, scale }));
+                let guide = Guide::new(template, path, options, Use { backward, turned_over, scale });
+                if !out.iter().any(|other: &Guide| other.is_same(&guide)) {
+                    out.push(guide);
+                }
             }
         }
     }

@@ -13,38 +13,37 @@ pub(crate) fn joints(pieces: &[Laid], corner_after: &[bool], closed: bool, guide
         .map(|i| {
             if corner_after[i] {
                 Joint::Corner
-            } else if i + 1 < n && goes_straight_on(&pieces[i], &pieces[i + 1], guides) {
+            } else if n > 1 && goes_straight_on(&pieces[i], &pieces[(i + 1) % n], guides) {
                 Joint::Straight
             } else {
                 Joint::Smooth
             }
         })
         .collect();
-    // A line is turned a little when it is made one with another: so both its ends must be free to be corners.
+    only_whole_lines(&mut joints, pieces, guides);
+    joints
+}
+
+/// A line is turned a little when it is made one with another: so both its ends must be free to be corners. Where one is not, the pieces are blended
+/// instead.
+pub(crate) fn only_whole_lines(joints: &mut [Joint], pieces: &[Laid], guides: &[Guide]) {
+    let (n, count) = (pieces.len(), joints.len());
+    let closed = count == n;
     loop {
-        let free = |joints: &[Joint], i: usize| match joints.get(i) {
-            Some(joint) => *joint != Joint::Smooth,
-            None => !closed,
+        let held = |outer: Outer, joint: Option<usize>| match outer {
+            Outer::Corner => false,
+            Outer::Bend => true,
+            Outer::EndOfPiece => joint.is_some_and(|i| joints[i] == Joint::Smooth),
         };
         let bad = (0..count).find(|&i| {
             let (a, b) = (&pieces[i], &pieces[(i + 1) % n]);
-            let before = if i > 0 {
-                i - 1
-            } else if closed {
-                count - 1
-            } else {
-                usize::MAX
-            };
-            let held = |outer: Outer, i: usize| match outer {
-                Outer::Corner => false,
-                Outer::Bend => true,
-                Outer::EndOfPiece => !free(&joints, i),
-            };
-            joints[i] == Joint::Straight && (held(leg_begin(a, guides), before) || held(leg_end(b, guides), i + 1))
+            let before = if i > 0 { Some(i - 1) } else { closed.then(|| count - 1) };
+            let after = if i + 1 < count { Some(i + 1) } else { closed.then_some(0) };
+            joints[i] == Joint::Straight && (held(leg_begin(a, guides), before) || held(leg_end(b, guides), after))
         });
         match bad {
             Some(i) => joints[i] = Joint::Smooth,
-            None => return joints,
+            None => return,
         }
     }
 }
@@ -81,7 +80,7 @@ fn leg_end(b: &Laid, guides: &[Guide]) -> Outer {
 }
 
 /// Whether two pieces are straight where they meet, and in about one line.
-fn goes_straight_on(a: &Laid, b: &Laid, guides: &[Guide]) -> bool {
+pub(crate) fn goes_straight_on(a: &Laid, b: &Laid, guides: &[Guide]) -> bool {
     let (pa, pb) = (&guides[a.guide].path, &guides[b.guide].path);
     let straight = pa.leg(a.to - NEAR).is_some() && pb.leg(b.from + NEAR).is_some();
     let turn = trig::wrap_angle(b.pose(pb, b.from + NEAR).heading - a.pose(pa, a.to - NEAR).heading);
@@ -92,4 +91,4 @@ fn goes_straight_on(a: &Laid, b: &Laid, guides: &[Guide]) -> bool {
 const NEAR: f64 = 1e-3;
 
 /// Straight pieces that meet at less than this are meant as one line, radians.
-const LARGEST_TURN: f64 = 0.2;
+const LARGEST_TURN: f64 = 0.3;

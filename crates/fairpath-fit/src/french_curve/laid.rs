@@ -77,11 +77,29 @@ impl Laid {
         let (mut largest, mut squares) = (0.0_f64, 0.0);
         for (at, &point) in self.places(points.len()).zip(points) {
             let foot = self.foot(path, at, [self.from, self.to], point);
-            let d2 = (point - foot.pose.point.to_vec2()).hypot2();
+            let nearest = if (self.from..=self.to).contains(&foot.at) {
+                foot.pose
+            } else {
+                self.pose(path, foot.at.clamp(self.from, self.to))
+            };
+            let d2 = (point - nearest.point.to_vec2()).hypot2();
             largest = largest.max(d2);
             squares += d2;
         }
         Distance { largest: largest.sqrt(), rms: (squares / points.len() as f64).sqrt() }
+    }
+
+    /// The same, used from beside the first of `points` to beside the last, as far as its path has no corner or end between.
+    pub(crate) fn trimmed(&self, guides: &[Guide], points: &[Vec2]) -> Self {
+        let path = &guides[self.guide].path;
+        let beside = |at: f64, inside: f64, point: Vec2| {
+            let range = path.smooth_stretch(inside);
+            self.foot(path, at, range, point).at.clamp(range[0], range[1].max(range[0]))
+        };
+        let from = beside(self.from, self.from + INSIDE, points[0]);
+        let to = beside(self.to, self.to - INSIDE, points[points.len() - 1]);
+        // What would be turned inside out stays.
+        if to - from > LEAST_LEFT * (self.to - self.from) { Self { from, to, ..*self } } else { *self }
     }
 
     /// How far its ends are from those of `points`, px.
@@ -97,6 +115,10 @@ impl Laid {
         (0..count).map(move |i| from + step * i as f64)
     }
 }
+
+/// Way from an end that lies inside, px, and the least share of a piece that trimming leaves.
+const INSIDE: f64 = 1e-6;
+const LEAST_LEFT: f64 = 0.3;
 
 /// Furthest that the foot of a point is looked for from the place that corresponds to it by arc length, px.
 pub(crate) const SLIDE: f64 = 12.0;

@@ -21,16 +21,23 @@ pub(crate) struct Link {
     pub(crate) rough: bool,
 }
 
-/// The link from `a` to `b`.
-pub(crate) fn link(a: &Laid, b: &Laid, joint: Joint, guides: &[Guide], options: &FrenchCurveOptions) -> Link {
+/// The link from `a` to `b`; `a` is not left before the arc length `kept` of its path.
+pub(crate) fn link(
+    a: &Laid,
+    b: &Laid,
+    joint: Joint,
+    kept: f64,
+    guides: &[Guide],
+    options: &FrenchCurveOptions,
+) -> Link {
     match joint {
         Joint::Straight => {
             Link { left_at: a.to, entered_at: b.from, between: Vec::new(), joins: vec![Continuity::G0], rough: false }
         }
-        Joint::Corner => crossing(a, b, guides).unwrap_or_else(|| bridge(a, b, guides)),
+        Joint::Corner => crossing(a, b, kept, guides).unwrap_or_else(|| bridge(a, b, kept, guides)),
         Joint::Smooth => match blend(a, b, guides, options) {
             Some(link) => link,
-            None => Link { rough: true, ..crossing(a, b, guides).unwrap_or_else(|| bridge(a, b, guides)) },
+            None => Link { rough: true, ..crossing(a, b, kept, guides).unwrap_or_else(|| bridge(a, b, kept, guides)) },
         },
     }
 }
@@ -75,12 +82,39 @@ fn blend(a: &Laid, b: &Laid, guides: &[Guide], options: &FrenchCurveOptions) -> 
     Some(Link { left_at, entered_at, between, joins, rough: false })
 }
 
+/// The end of `a` led to the beginning of `b`, which stays as it is: smoothly if they meet at less than [`SMOOTH_CLOSING`], else with a corner. Nothing
+/// if they are too far apart for that.
+pub(crate) fn closing(a: &Laid, b: &Laid, kept: f64, guides: &[Guide], options: &FrenchCurveOptions) -> Option<Link> {
+    let (pa, pb) = (&guides[a.guide].path, &guides[b.guide].path);
+    let left_at = kept.min(a.to - LEAST);
+    let (end, begin) = (a.pose(pa, a.to), b.pose(pb, b.from));
+    let length = a.to - left_at;
+    if trig::wrap_angle(begin.heading - end.heading).abs() < SMOOTH_CLOSING {
+        let (smooth_a, smooth_b) = (pa.smooth_stretch(a.to - LEAST), pb.smooth_stretch(b.from + LEAST));
+        let stretches = Stretches {
+            from: |t: f64| a.placed(pa.pose_within(left_at + length * t, smooth_a)),
+            into: |t: f64| b.placed(pb.pose_within(b.from - length * (1.0 - t), smooth_b)),
+            length,
+        };
+        let between = stretches.clothoids(options.accuracy)?;
+        let joins = vec![Continuity::G2; between.len() + 1];
+        return Some(Link { left_at, entered_at: b.from, between, joins, rough: false });
+    }
+    let chain = fairpath_curve::hermite_g2(a.pose(pa, left_at), Pose { point: begin.point, ..end })?;
+    let sound = chain.iter().map(|s| s.length).sum::<f64>() < LOOSE * length + FURTHER;
+    let joins = vec![Continuity::G2, Continuity::G2, Continuity::G2, Continuity::G0];
+    sound.then(|| Link { left_at, entered_at: b.from, between: chain.to_vec(), joins, rough: false })
+}
+
+/// Ends that meet at less than this close smoothly, radians.
+const SMOOTH_CLOSING: f64 = 0.8;
+
 /// A corner where the two pieces, or their templates a little further on, cross.
-fn crossing(a: &Laid, b: &Laid, guides: &[Guide]) -> Option<Link> {
+fn crossing(a: &Laid, b: &Laid, kept: f64, guides: &[Guide]) -> Option<Link> {
     let (pa, pb) = (&guides[a.guide].path, &guides[b.guide].path);
     let [low_a, high_a] = pa.smooth_stretch(a.to - LEAST);
     let [low_b, high_b] = pb.smooth_stretch(b.from + LEAST);
-    let range_a = [low_a.max(a.to - KEPT * (a.to - a.from)), high_a.min(a.to + FURTHER)];
+    let range_a = [low_a.max(a.to - KEPT * (a.to - a.from)).max(kept), high_a.min(a.to + FURTHER)];
     let range_b = [low_b.max(b.from - FURTHER), high_b.min(b.from + KEPT * (b.to - b.from))];
     let (mut u, mut v) = (a.to, b.from);
     let mut gap = f64::INFINITY;
@@ -100,7 +134,7 @@ fn crossing(a: &Laid, b: &Laid, guides: &[Guide]) -> Option<Link> {
             break;
         }
     }
-    let found = gap < EXACT * EXACT && u > a.from + LEAST && v < b.to - LEAST;
+    let found = gap < EXACT * EXACT && u > (a.from + LEAST).max(kept) && v < b.to - LEAST;
     let link = Link { left_at: u, entered_at: v, between: Vec::new(), joins: vec![Continuity::G0], rough: false };
     found.then_some(link)
 }
@@ -115,12 +149,14 @@ const EXACT: f64 = 1e-11;
 const FLAT: f64 = 0.05;
 
 /// The gap closed by bending the end of one piece and the beginning of the other to the middle between them; by a line if that is not possible.
-fn bridge(a: &Laid, b: &Laid, guides: &[Guide]) -> Link {
+fn bridge(a: &Laid, b: &Laid, kept: f64, guides: &[Guide]) -> Link {
     let (pa, pb) = (&guides[a.guide].path, &guides[b.guide].path);
     let (end, begin) = (a.pose(pa, a.to), b.pose(pb, b.from));
     let middle = end.point.midpoint(begin.point);
-    let left_at = pa.snapped((a.to - BENT * (a.to - a.from)).max(pa.smooth_stretch(a.to - LEAST)[0]));
-    let entered_at = pb.snapped((b.from + BENT * (b.to - b.from)).min(pb.smooth_stretch(b.from + LEAST)[1]));
+    // Corners of the templates stay.
+    let (corner_a, corner_b) = (pa.smooth_stretch(a.to - LEAST)[0], pb.smooth_stretch(b.from + LEAST)[1]);
+    let left_at = pa.snapped((a.to - BENT * (a.to - a.from).min(a.to - corner_a)).max(kept));
+    let entered_at = pb.snapped(b.from + BENT * (b.to - b.from).min(corner_b - b.from));
     let bent = |from: Pose, to: Pose, most: f64| {
         fairpath_curve::hermite_g2(from, to).filter(|chain| chain.iter().map(|s| s.length).sum::<f64>() < most)
     };

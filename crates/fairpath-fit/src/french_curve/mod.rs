@@ -14,11 +14,14 @@ mod path;
 mod piece;
 mod pose;
 mod segmentation;
+mod stream;
 mod template;
 mod turning;
+mod whole;
 
 pub use options::{CornerSource, Flips, FrenchCurveOptions, Laying, PieceSearch};
 pub use piece::TemplatePiece;
+pub use stream::{Committed, FrenchCurveStream};
 pub use template::{Template, TemplateError, TemplateSet};
 
 use crate::clean::{Cleaned, clean};
@@ -31,13 +34,14 @@ use crate::stroke::Stroke;
 use crate::track::{Shape, Track, prepare};
 use chain::Chain;
 use choice::{Chosen, fitting};
-use fairpath_curve::{Continuity, Point, Similarity, Vec2};
+use fairpath_curve::{Point, Similarity, Vec2};
 use guide::{Guide, guides};
 use joints::joints;
 use laid::Laid;
 use link::{Link, link};
 use part::Part;
 use segmentation::{Section, sections};
+use whole::{all_around, whole};
 
 /// A stroke neatened with French curves.
 #[derive(Clone, Debug, PartialEq)]
@@ -55,6 +59,13 @@ pub(crate) fn fit(
     options: &FrenchCurveOptions,
 ) -> Result<FrenchCurveFit, FitError> {
     options.validate()?;
+    if options.search == PieceSearch::Greedy {
+        let mut stream = FrenchCurveStream::new(set, options)?;
+        for &point in &stroke.points {
+            stream.push(point);
+        }
+        return stream.finish();
+    }
     let mut cleaned = clean(&stroke.points, options.stroke.pixel_size)?;
     // Where templates must not be run through backward, the direction of drawing has a meaning.
     let backward = options.flips != Flips::None && is_backward(&stroke.points);
@@ -68,6 +79,17 @@ pub(crate) fn fit(
     Ok(if backward { turned_round(fit) } else { fit })
 }
 
+/// An error for a stroke of more steps than anyone draws: each takes time.
+fn too_long(length: f64, options: &FrenchCurveOptions) -> Option<FitError> {
+    let longest = MOST_STEPS * options.spacing;
+    let told = |px: f64| px * options.stroke.pixel_size;
+    // Written so that an overflow to infinity fails too.
+    (!(length <= longest)).then(|| FitError::TooLong { length: told(length), longest: told(longest) })
+}
+
+/// Most steps of a stroke.
+const MOST_STEPS: f64 = 1e5;
+
 fn warn_if_far(fit: &mut Fit, options: &FrenchCurveOptions) {
     let off = fit.report.max_deviation;
     if off > options.max_error * options.stroke.pixel_size {
@@ -77,6 +99,7 @@ fn warn_if_far(fit: &mut Fit, options: &FrenchCurveOptions) {
 }
 
 /// The pieces of a stroke before they are joined.
+#[derive(Clone, Debug)]
 struct Pieces {
     laid: Vec<Laid>,
     /// The points that each covers.
@@ -132,8 +155,7 @@ fn pieces_of_parts(track: &Track, line: &Polyline, guides: &[Guide], options: &F
 }
 
 /// The pieces of a smoothly closed stroke.
-fn pieces_of_ring(line: &Polyline, guides: &[Guide], options: &FrenchCurveOptions) -> Pieces {
-    let ring = Part::ring(line, options.spacing, options.curvature_window);
+fn pieces_of_ring(ring: Part, guides: &[Guide], options: &FrenchCurveOptions) -> Pieces {
     // The seam is no place to break at: in two turns the break nearest to the middle is one that both sides want.
     let n = ring.cells();
     let twice: Vec<f64> = ring.turnings.iter().chain(&ring.turnings).copied().collect();
@@ -166,20 +188,44 @@ fn solve(
     let last = track.all.samples[track.turn];
     let data = &track.all.data[..=last];
     let line = Polyline::new(data.iter().map(|d| d.point).collect());
-    let mut pieces = if track.shape == Shape::Ring {
-        pieces_of_ring(&line, guides, options)
-    } else {
-        pieces_of_parts(&track, &line, guides, options)
+    if let Some(error) = too_long(line.length(), options) {
+        return Err(error);
+    }
+    let ring = (track.shape == Shape::Ring).then(|| Part::ring(&line, options.spacing, options.curvature_window));
+    let mut pieces = match &ring {
+        Some(ring) => pieces_of_ring(ring.clone(), guides, options),
+        None => pieces_of_parts(&track, &line, guides, options),
     };
     let mut report =
         Report { points: stroke.points.len(), samples: pieces.cells, cost: pieces.cost, ..Report::default() };
-    let joints = joints(&pieces.laid, &pieces.corner_after, pieces.closed, guides);
+    let most = pieces.cost + WHOLE_IS_WORTH * options.piece_cost;
+    if let Some((laid, error)) = ring.as_ref().and_then(|ring| whole(ring, guides, most, options)) {
+        let length = guides[laid.guide].path.length();
+        let seen = Seen { used: [0.0, length], span: [0.0, length] };
+        if let Some(spline) = restored_spline(all_around(&laid, guides), cleaned) {
+            report.cost = error + options.piece_cost;
+            describe(&mut report, &spline, stroke, options.stroke.pixel_size);
+            let piece = described(&laid, seen, &guides[laid.guide], cleaned);
+            return Ok(FrenchCurveFit { fit: Fit { spline, report, warnings }, pieces: vec![piece] });
+        }
+    }
+    let mut joints = joints(&pieces.laid, &pieces.corner_after, pieces.closed, guides);
     if options.mode == Laying::Refined {
         let points: Vec<&[Vec2]> = pieces.points.iter().map(Vec::as_slice).collect();
-        pose::settle_together(&mut pieces.laid, &points, &joints, guides);
+        let limit = options.end_threshold.unwrap_or(f64::INFINITY);
+        pose::settle_together(&mut pieces.laid, &points, &mut joints, guides, limit);
     }
     let links: Vec<Link> = (0..joints.len())
-        .map(|i| link(&pieces.laid[i], &pieces.laid[(i + 1) % pieces.laid.len()], joints[i], guides, options))
+        .map(|i| {
+            link(
+                &pieces.laid[i],
+                &pieces.laid[(i + 1) % pieces.laid.len()],
+                joints[i],
+                f64::NEG_INFINITY,
+                guides,
+                options,
+            )
+        })
         .collect();
     let rough = links.iter().filter(|l| l.rough).count();
     if rough > 0 {
@@ -207,6 +253,9 @@ fn solve(
     Ok(FrenchCurveFit { fit: Fit { spline, report, warnings }, pieces: out })
 }
 
+/// A template that closes by itself may err by as much more as so many pieces cost.
+const WHOLE_IS_WORTH: f64 = 2.0;
+
 /// Where a piece is used and seen.
 #[derive(Clone, Copy, Debug)]
 struct Seen {
@@ -221,7 +270,9 @@ fn joined(pieces: &Pieces, joints: &[pose::Joint], links: &[Link], guides: &[Gui
     let mut chain = Chain::default();
     let mut seen = Vec::new();
     let n = pieces.laid.len();
-    let mut begin = 0.0;
+    let last_link = if pieces.closed { links.last() } else { None };
+    // The blend of the last piece with the first is at the end of the curve.
+    let mut begin = -last_link.map_or(0.0, |link| link.between.iter().map(|s| s.length).sum());
     for (i, laid) in pieces.laid.iter().enumerate() {
         let path = &guides[laid.guide].path;
         let before = if i > 0 { Some(i - 1) } else { pieces.closed.then_some(n - 1) };
@@ -235,7 +286,21 @@ fn joined(pieces: &Pieces, joints: &[pose::Joint], links: &[Link], guides: &[Gui
         seen.push(Seen { used: [from, to], span: [begin, chain.length] });
         begin = left;
     }
-    (chain.finished(pieces.closed), seen)
+    let length = chain.length;
+    let (parts, off) = chain.finished(pieces.closed);
+    for seen in &mut seen {
+        seen.span = along(seen.span.map(|s| s - off), length, pieces.closed);
+    }
+    (parts, seen)
+}
+
+/// A span that begins on a curve of given length; on a closed one it may run on through the start.
+fn along([from, to]: [f64; 2], length: f64, closed: bool) -> [f64; 2] {
+    if closed {
+        let off = length * libm::floor(from / length);
+        return [from - off, to - off];
+    }
+    [from.max(0.0), to.min(length)]
 }
 
 /// What a caller is told of a piece.
@@ -261,15 +326,12 @@ fn described(laid: &Laid, seen: Seen, guide: &Guide, cleaned: &Cleaned) -> Templ
 /// The fit of the reversed stroke as one of the stroke.
 fn turned_round(fit: FrenchCurveFit) -> FrenchCurveFit {
     let length = fit.fit.spline.length();
+    let closed = fit.fit.spline.is_closed();
     let turned = |p: TemplatePiece| TemplatePiece {
         backward: !p.backward,
-        span: [(length - p.span[1]).max(0.0), length - p.span[0]],
+        span: along([length - p.span[1], length - p.span[0]], length, closed),
         ..p
     };
     let pieces = fit.pieces.into_iter().rev().map(turned).collect();
     FrenchCurveFit { fit: Fit { spline: fit.fit.spline.reversed(), ..fit.fit }, pieces }
 }
-
-/// A closed template that is the whole curve.
-#[expect(dead_code, reason = "not yet")]
-fn whole(_: Continuity) {}

@@ -19,6 +19,7 @@ pub struct TemplatePiece {
     pub turned_over: bool,
     /// Lays the template as it was drawn, px, over the stroke, in the stroke's unit and frame; a mirror image if it is turned over.
     pub transform: Similarity,
-    /// Arc lengths along the resulting curve between which this part is seen, blends included, in the stroke's unit.
+    /// Arc lengths along the resulting curve between which this part is seen, blends included, in the stroke's unit. On a closed curve it begins
+    /// within the curve's length and may run on through its start.
     pub span: [f64; 2],
 }

@@ -5,6 +5,7 @@
 //! Along the templates they may slide. The matrix couples neighbours only, so that a step takes time linear in the number of pieces.
 
 use super::guide::Guide;
+use super::joints::{goes_straight_on, only_whole_lines};
 use super::laid::{Laid, SLIDE};
 use crate::linear::{cholesky, solve};
 use fairpath_curve::{Pose, Vec2, trig};
@@ -23,8 +24,8 @@ pub(crate) enum Joint {
 /// What a piece that is laid by itself has to meet.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Neighbours {
-    /// Where the piece before it ends, and whether both are straight.
-    pub(crate) before: Option<(Pose, Joint)>,
+    /// The piece before it, which stays where it is.
+    pub(crate) before: Option<Laid>,
 }
 
 impl Neighbours {
@@ -120,11 +121,14 @@ pub(crate) fn settled(laid: &Laid, points: &[Vec2], guides: &[Guide], neighbours
     let mut laid = *laid;
     for _ in 0..ROUNDS {
         let mut normal = Normal::of(&laid, points, guides);
-        if let Some((before, joint)) = neighbours.before {
-            let foot = laid.foot(path, laid.from, [laid.from, laid.to], before.point.to_vec2());
-            let [gap, turn] = weights(joint);
-            normal.add(across(foot.pose, normal.centre), foot.across, gap);
-            normal.add([0.0, 0.0, 1.0], trig::wrap_angle(before.heading - foot.pose.heading), turn);
+        if let Some(before) = neighbours.before {
+            let joint = if goes_straight_on(&before, &laid, guides) { Joint::Straight } else { Joint::Smooth };
+            let end = before.pose(&guides[before.guide].path, before.to);
+            let foot = laid.foot(path, laid.from, [laid.from, laid.to], end.point.to_vec2());
+            let turn = trig::wrap_angle(end.heading - foot.pose.heading);
+            let [gap_weight, turn_weight] = weights(joint);
+            normal.add(across(foot.pose, normal.centre), foot.across, gap_weight * robust(foot.across, FAR_GAP));
+            normal.add([0.0, 0.0, 1.0], turn, turn_weight * robust(turn, FAR_TURN));
         }
         let mut normal = normal.damped(laid.to - laid.from);
         if !cholesky(&mut normal.a, 3, 0.0) {
@@ -147,19 +151,111 @@ fn weights(joint: Joint) -> [f64; 2] {
 }
 
 /// All pieces settled together: `points` has those of each piece, and `joints` how each meets the next, the last the first if there are as many.
-pub(crate) fn settle_together(pieces: &mut [Laid], points: &[&[Vec2]], joints: &[Joint], guides: &[Guide]) {
+///
+/// No piece is drawn further from its points than `limit`, or than it was: what meets such a piece is relaxed, and all is begun anew. A long line
+/// may be drawn a little bowed; where it is bowed too much, it becomes several that are blended.
+pub(crate) fn settle_together(
+    pieces: &mut [Laid],
+    points: &[&[Vec2]],
+    joints: &mut [Joint],
+    guides: &[Guide],
+    limit: f64,
+) {
     let n = pieces.len();
     if n < 2 {
         return;
     }
+    let alone: Vec<f64> =
+        pieces.iter().zip(points).map(|(l, p)| limit.max(WORSE * l.distance(guides, p).largest)).collect();
+    let mut pulls = vec![1.0; joints.len()];
+    let mut round = 0;
+    loop {
+        let lines = line_lengths(pieces, joints);
+        let bowed = |i: usize| (BOW * lines[i]).min(MOST_BOWED * limit);
+        let allowed: Vec<f64> = (0..n).map(|i| alone[i].max(bowed(i))).collect();
+        let mut moved = pieces.to_vec();
+        pull(&mut moved, points, joints, &pulls, guides);
+        trim_ends(&mut moved, points, joints, guides);
+        let bad: Vec<usize> =
+            (0..n).filter(|&i| !(moved[i].distance(guides, points[i]).largest <= allowed[i])).collect();
+        if bad.is_empty() || round == RELAXATIONS {
+            for (i, new) in moved.into_iter().enumerate() {
+                if !bad.contains(&i) {
+                    pieces[i] = new;
+                }
+            }
+            return;
+        }
+        let beside = |i: &usize| [if *i > 0 { i - 1 } else { n - 1 }, *i];
+        let around: Vec<usize> = bad.iter().flat_map(beside).filter(|j| *j < joints.len()).collect();
+        let straight: Vec<usize> = around.iter().copied().filter(|&j| joints[j] == Joint::Straight).collect();
+        if straight.is_empty() {
+            around.into_iter().for_each(|j| pulls[j] *= RELAXED);
+            round += 1;
+        } else {
+            straight.into_iter().for_each(|j| joints[j] = Joint::Smooth);
+            only_whole_lines(joints, pieces, guides);
+        }
+    }
+}
+
+/// For each piece the length of all that are one line with it, px; nothing for those that are blended on both sides.
+fn line_lengths(pieces: &[Laid], joints: &[Joint]) -> Vec<f64> {
+    let n = pieces.len();
+    let mut out = vec![0.0; n];
+    let mut first = 0;
+    while first < n {
+        let mut last = first;
+        while last + 1 < n && joints[last] == Joint::Straight {
+            last += 1;
+        }
+        if last > first {
+            out[first..=last].fill(pieces[first..=last].iter().map(|l| l.to - l.from).sum());
+        }
+        first = last + 1;
+    }
+    out
+}
+
+/// By how much of its length a line may be drawn bowed, and at most by how many times what a piece may be off.
+const BOW: f64 = 0.04;
+const MOST_BOWED: f64 = 2.5;
+
+/// Lets the curve end beside the ends of the stroke and of its parts.
+fn trim_ends(pieces: &mut [Laid], points: &[&[Vec2]], joints: &[Joint], guides: &[Guide]) {
+    let n = pieces.len();
+    let free = |i: usize| joints.get(i).is_none_or(|j| *j == Joint::Corner);
+    for i in 0..n {
+        let before = if i > 0 { i - 1 } else { n - 1 };
+        let trimmed = pieces[i].trimmed(guides, points[i]);
+        let from = if free(before) { trimmed.from } else { pieces[i].from };
+        let to = if free(i) { trimmed.to } else { pieces[i].to };
+        if to > from {
+            (pieces[i].from, pieces[i].to) = (from, to);
+        }
+    }
+}
+
+/// How often what meets badly is relaxed, and by how much.
+const RELAXATIONS: usize = 4;
+const RELAXED: f64 = 0.1;
+
+/// By how much a piece may become worse.
+const WORSE: f64 = 1.1;
+
+/// Gauss–Newton steps; a joint counts as its entry in `pulls` tells.
+fn pull(pieces: &mut [Laid], points: &[&[Vec2]], joints: &[Joint], pulls: &[f64], guides: &[Guide]) {
+    let n = pieces.len();
+    let alone = pieces.to_vec();
+    let smooth = |i: &usize| joints[*i] != Joint::Corner;
     for _ in 0..ROUNDS_TOGETHER {
         let mut normals: Vec<Normal> =
             pieces.iter().zip(points).map(|(l, p)| Normal::of(l, p, guides).damped(l.to - l.from)).collect();
         // Coupling of each piece with the next, and of the last with the first.
         let mut couplings = vec![[[0.0; 3]; 3]; n];
-        for (i, &joint) in joints.iter().enumerate().filter(|(_, j)| **j != Joint::Corner) {
+        for i in (0..joints.len()).filter(smooth) {
             let next = (i + 1) % n;
-            slide(pieces, i, next, guides);
+            slide(pieces, &alone, i, next, guides);
             let (a, b) = (pieces[i], pieces[next]);
             let (pa, pb) = (a.pose(&guides[a.guide].path, a.to), b.pose(&guides[b.guide].path, b.from));
             // The gap is measured across the direction between both.
@@ -169,12 +265,13 @@ pub(crate) fn settle_together(pieces: &mut [Laid], points: &[&[Vec2]], joints: &
                 across(Pose { heading: middle, ..pa }, normals[i].centre),
                 across(Pose { heading: middle, ..pb }, normals[next].centre),
             );
-            let t = trig::unit(middle);
-            let gap = t.cross(pb.point - pa.point);
-            let [gap_weight, turn_weight] = weights(joint);
-            for (ra, rb, residual, weight) in
-                [(ra, rb, gap, gap_weight), ([0.0, 0.0, 1.0], [0.0, 0.0, 1.0], turn, turn_weight)]
-            {
+            let gap = trig::unit(middle).cross(pb.point - pa.point);
+            let [gap_weight, turn_weight] = weights(joints[i]).map(|w| w * pulls[i]);
+            let both = [0.0, 0.0, 1.0];
+            for (ra, rb, residual, weight) in [
+                (ra, rb, gap, gap_weight * robust(gap, FAR_GAP)),
+                (both, both, turn, turn_weight * robust(turn, FAR_TURN)),
+            ] {
                 normals[i].add(ra, residual, weight);
                 normals[next].add(rb, -residual, weight);
                 for r in 0..3 {
@@ -189,27 +286,35 @@ pub(crate) fn settle_together(pieces: &mut [Laid], points: &[&[Vec2]], joints: &
             *laid = moved(laid, step, normal.centre);
         }
     }
-    for (i, _) in joints.iter().enumerate().filter(|(_, j)| **j != Joint::Corner) {
-        slide(pieces, i, (i + 1) % n, guides);
+    for i in (0..joints.len()).filter(smooth) {
+        slide(pieces, &alone, i, (i + 1) % n, guides);
     }
 }
 
-/// Moves the end of a piece and the beginning of the next along their templates to where the two are side by side.
-fn slide(pieces: &mut [Laid], i: usize, next: usize, guides: &[Guide]) {
+/// What is far from meeting does not come together by force.
+fn robust(residual: f64, far: f64) -> f64 {
+    1.0 / (1.0 + (residual / far) * (residual / far))
+}
+
+/// A gap and an angle that are too large to be closed, px and radians.
+const FAR_GAP: f64 = 5.0;
+const FAR_TURN: f64 = 0.5;
+
+/// Moves the end of a piece and the beginning of the next along their templates to where the two are side by side, not far from where they were
+/// while they lay `alone`.
+fn slide(pieces: &mut [Laid], alone: &[Laid], i: usize, next: usize, guides: &[Guide]) {
     let (a, b) = (pieces[i], pieces[next]);
     let (pa, pb) = (&guides[a.guide].path, &guides[b.guide].path);
     let middle = a.pose(pa, a.to).point.midpoint(b.pose(pb, b.from).point).to_vec2();
     // Neither passes a corner of its template, an end of it, or the middle of the piece.
-    let [_, high] = pa.smooth_stretch(a.to - SAME);
-    let [low, _] = pb.smooth_stretch(b.from);
-    let end = a.foot(pa, a.to, [a.from, high], middle).at.clamp(a.to - KEPT * (a.to - a.from), high.max(a.to));
-    let begin = b.foot(pb, b.from, [low, b.to], middle).at.clamp(low.min(b.from), b.from + KEPT * (b.to - b.from));
-    if (end - a.to).abs() < SLIDE {
-        pieces[i].to = end;
-    }
-    if (begin - b.from).abs() < SLIDE {
-        pieces[next].from = begin;
-    }
+    let (was_a, was_b) = (alone[i], alone[next]);
+    let [_, high] = pa.smooth_stretch(was_a.to - SAME);
+    let [low, _] = pb.smooth_stretch(was_b.from);
+    let shortened = |l: Laid| (KEPT * (l.to - l.from)).min(SLIDE);
+    let ends = [was_a.to - shortened(was_a), high.min(was_a.to + SLIDE).max(was_a.to)];
+    let begins = [low.max(was_b.from - SLIDE).min(was_b.from), was_b.from + shortened(was_b)];
+    pieces[i].to = a.foot(pa, a.to, [a.from, high], middle).at.clamp(ends[0], ends[1]);
+    pieces[next].from = b.foot(pb, b.from, [low, b.to], middle).at.clamp(begins[0], begins[1]);
 }
 
 /// Most of a piece by which it is shortened at an end.

@@ -62,6 +62,11 @@ pub(crate) fn heading(points: &[Vec2], at: usize, reach: f64, closed: bool) -> f
     trig::angle_of(Vec2::new(x[1] + 2.0 * t * x[2], y[1] + 2.0 * t * y[2]))
 }
 
+/// Whether the heading at point `at` of an open curve that grows at its end will not change any more.
+pub(crate) fn is_settled(at: usize, points: usize, reach: f64) -> bool {
+    (at as f64).max(OFF_ENDS * reach) + reach <= points as f64 - 1.0
+}
+
 /// Share of the neighbourhood by which the middle of one keeps off the ends.
 const OFF_ENDS: f64 = 0.6;
 

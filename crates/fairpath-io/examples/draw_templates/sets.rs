@@ -147,10 +147,10 @@ fn angular(lengths: &[f64], turns: &[i32]) -> Spline {
 fn automotive() -> TemplateSet {
     let mut templates: Vec<Template> = RADII.iter().map(|&radius| circle(radius)).collect();
     let chain = |name, heading: f64, knots: &[Knot]| template(name, open(-heading, &mirrored(knots)));
-    // A sweep is bent most in its middle and ever less towards its ends.
+    // A sweep is bent most in its middle and ever less towards its ends; its crown is up.
     let sweep = |name, half: f64, end: f64, middle: f64| {
         let turn = half * (end + middle) * 0.5;
-        chain(name, -turn, &[(half, end), (half, middle), (0.0, end)])
+        chain(name, turn, &[(half, -end), (half, -middle), (0.0, -end)])
     };
     templates.extend([
         sweep("roof", 900.0, 1.0 / 4000.0, 1.0 / 600.0),
@@ -159,20 +159,20 @@ fn automotive() -> TemplateSet {
         chain("waistline", 0.3, &[(700.0, -1.0 / 600.0), (700.0, 1.0 / 5000.0), (0.0, 1.0 / 900.0)]),
         chain(
             "tail",
-            -0.5,
+            0.15,
             &[
-                (500.0, 1.0 / 900.0),
-                (90.0, 1.0 / 300.0),
-                (70.0, 1.0 / 40.0),
-                (160.0, -1.0 / 150.0),
-                (0.0, -1.0 / 700.0),
+                (400.0, -1.0 / 1500.0),
+                (90.0, -1.0 / 500.0),
+                (60.0, -1.0 / 35.0),
+                (140.0, 1.0 / 220.0),
+                (0.0, 1.0 / 900.0),
             ],
         ),
-        chain("wheel arch", 0.0, &arch()),
+        chain("wheel arch", 90.0 * CROWN, &arch()),
         fillet("small fillet", 20.0),
         fillet("fillet", 50.0),
         fillet("large fillet", 125.0),
-        template("panel", ring(0.0, &panel())),
+        template("panel", ring(-180.0 * CROWN, &panel())),
     ]);
     set("automotive", templates)
 }
@@ -191,18 +191,23 @@ const CROWN: f64 = 1.0 / 3000.0;
 
 /// Sill, hollow, the arch over the wheel, and the same back.
 fn arch() -> Vec<Knot> {
-    let (hollow, round) = (-1.0 / 22.0, 1.0 / 95.0);
+    let (hollow, round) = (1.0 / 22.0, -1.0 / 95.0);
+    let into_hollow = 30.0;
+    let along_hollow = 8.0;
+    let out_of_hollow = 14.0;
+    // The arch undoes what both hollows turn.
+    let turn = 0.5 * into_hollow * (hollow - CROWN) + along_hollow * hollow + 0.5 * out_of_hollow * (hollow + round);
     vec![
-        (180.0, CROWN),
-        (30.0, CROWN),
-        (14.0, hollow),
-        (34.0, hollow),
-        (300.0, round),
-        (34.0, round),
-        (14.0, hollow),
-        (30.0, hollow),
-        (180.0, CROWN),
-        (0.0, CROWN),
+        (180.0, -CROWN),
+        (into_hollow, -CROWN),
+        (along_hollow, hollow),
+        (out_of_hollow, hollow),
+        (-2.0 * turn / round, round),
+        (out_of_hollow, round),
+        (along_hollow, hollow),
+        (into_hollow, hollow),
+        (180.0, -CROWN),
+        (0.0, -CROWN),
     ]
 }
 

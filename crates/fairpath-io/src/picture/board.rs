@@ -1,4 +1,4 @@
-//! A set of French curves laid out on a board side by side, all to one scale, as old catalogues show them (figure 1 of McCrae and Singh 2011).
+//! Sets of French curves laid out on a board side by side, each set to one scale, as old catalogues show them (figure 1 of McCrae and Singh 2011).
 
 use super::drawing::{CombScale, Pen, sane_size};
 use super::lettering;
@@ -7,7 +7,7 @@ use super::{Comb, PictureOptions};
 use crate::drawable::Drawable;
 use fairpath_curve::{Point, Spline};
 use fairpath_fit::{Template, TemplateSet};
-use kurbo::{BezPath, Rect, Size};
+use kurbo::{BezPath, Rect, Size, Vec2};
 
 /// Height of the board over its width, at most.
 const HIGHEST: f64 = 0.75;
@@ -22,40 +22,93 @@ const TEETH: f64 = 160.0;
 /// Two-dimensional size below which a shape would be no more than a dot, px of the page.
 const SMALLEST_PX: f64 = 0.5;
 
-/// A picture of a set: each French curve whole, closed ones as cut from a sheet, with its name; open ones with their ends marked.
+/// A picture of sets, one above the other, each to a scale of its own: each French curve whole, closed ones as cut from a sheet, with its
+/// name. Several sets are headed by their names.
 ///
-/// `options.size_px` is the width of the page; `joins` marks joins and corners, `comb` draws the curvature.
+/// `options.size_px` is the width of the page; `joins` marks joins, corners and ends, `comb` draws the curvature.
 #[must_use]
-pub fn draw_templates(set: &TemplateSet, options: &PictureOptions) -> Picture {
+pub fn draw_templates(sets: &[TemplateSet], options: &PictureOptions) -> Picture {
     let width = sane_size(options.size_px);
+    let heading = if sets.len() > 1 { 3.0 * LETTERS * width + PADDING * width } else { 0.0 };
+    let highest = HIGHEST * width / (sets.len() as f64).sqrt().max(1.0);
     let mut drawable = Drawable::default();
-    let shown: Vec<&Template> = set.templates().iter().filter(|t| drawable.admits(t.spline())).collect();
-    let comb = comb_of(&shown, options.comb);
-    let boxes: Vec<Rect> =
-        shown.iter().map(|t| comb.widened(t.spline().bounding_box(), std::iter::once(t.spline()))).collect();
-    let names: Vec<String> =
-        shown.iter().map(|t| lettering::shortened(t.name(), LETTERS * width, 0.3 * width)).collect();
-    let (scale, rows) = arranged(&boxes, &names, width);
-    let mut page = Page::new(width, rows.height);
-    let pen = Pen { unit: width / 1600.0 };
-    for (((template, bounds), name), cell) in shown.iter().zip(&boxes).zip(&names).zip(&rows.cells) {
-        let size = Size::new(bounds.width(), bounds.height()) * scale;
-        let corner = Point::new(cell.center().x - 0.5 * size.width, cell.y1 - label_height(width) - size.height);
-        // A shape without height is scaled by its width, and the other way round.
-        let into = Rect::from_origin_size(corner, size).inflate(1e-9, 1e-9);
-        let view = View::fit(bounds.inflate(1e-9 / scale, 1e-9 / scale), into, false);
-        shape(&mut page, &view, pen, template.spline());
-        pen.comb(&mut page, &view, template.spline(), comb);
-        if options.joins {
-            pen.marks(&mut page, &view, template.spline());
+    let mut boards = Vec::new();
+    for set in sets {
+        boards.push(Board::new(set, options.comb, width, highest, &mut drawable));
+    }
+    let height = boards.iter().map(|board| heading + board.rows.height).sum();
+    let mut page = Page::new(width, height);
+    let mut top = 0.0;
+    for (board, set) in boards.iter().zip(sets) {
+        if heading > 0.0 {
+            let letters = 1.4 * LETTERS * width;
+            let at = Point::new(PADDING * width, top + PADDING * width + letters);
+            write(&mut page, set.name(), at, letters, colour::FAINT);
         }
-        let letters = LETTERS * width;
-        let at = Point::new(cell.center().x - 0.5 * lettering::width(name, letters), cell.y1 - PADDING * width * 0.5);
-        let text = lettering::text(name, at, letters);
-        let thin = letters / 8.0;
-        page.path(&text, format_args!("fill=\"none\" stroke=\"{}\" stroke-width=\"{thin:.2}\"", colour::LABEL));
+        board.draw(&mut page, top + heading, options.joins);
+        top += heading + board.rows.height;
     }
     page.finish()
+}
+
+/// One set, arranged.
+struct Board<'a> {
+    shown: Vec<&'a Template>,
+    boxes: Vec<Rect>,
+    names: Vec<String>,
+    comb: CombScale,
+    scale: f64,
+    rows: Rows,
+    width: f64,
+}
+
+impl<'a> Board<'a> {
+    fn new(set: &'a TemplateSet, comb: Comb, width: f64, highest: f64, drawable: &mut Drawable) -> Self {
+        let shown: Vec<&Template> = set.templates().iter().filter(|t| drawable.admits(t.spline())).collect();
+        let comb = comb_of(&shown, comb);
+        let boxed = |t: &&Template| comb.widened(t.spline().bounding_box(), std::iter::once(t.spline()));
+        let boxes: Vec<Rect> = shown.iter().map(boxed).collect();
+        let named = |t: &&Template| lettering::shortened(t.name(), LETTERS * width, 0.3 * width);
+        let names: Vec<String> = shown.iter().map(named).collect();
+        let (scale, rows) = arranged(&boxes, &names, width, highest);
+        Self { shown, boxes, names, comb, scale, rows, width }
+    }
+
+    fn draw(&self, page: &mut Page, top: f64, joins: bool) {
+        let pen = Pen { unit: self.width / 1600.0 };
+        let letters = LETTERS * self.width;
+        for (i, cell) in self.rows.cells.iter().enumerate() {
+            let cell = *cell + Vec2::new(0.0, top);
+            let (bounds, name, spline) = (self.boxes[i], &self.names[i], self.shown[i].spline());
+            let size = Size::new(bounds.width(), bounds.height()) * self.scale;
+            let corner =
+                Point::new(cell.center().x - 0.5 * size.width, cell.y1 - label_height(self.width) - size.height);
+            let view = view_at(bounds, corner, self.scale);
+            shape(page, &view, pen, spline);
+            pen.comb(page, &view, spline, self.comb);
+            if joins {
+                pen.marks(page, &view, spline);
+            }
+            let left = cell.center().x - 0.5 * lettering::width(name, letters);
+            write(page, name, Point::new(left, cell.y1 - PADDING * self.width * 0.5), letters, colour::LABEL);
+        }
+    }
+}
+
+/// The view that shows what lies in `bounds` at this scale below and to the right of `corner`.
+pub(crate) fn view_at(bounds: Rect, corner: Point, scale: f64) -> View {
+    // A shape without width or height has room for rounding all the same.
+    let little = 1e-6;
+    let size = Size::new(bounds.width(), bounds.height()) * scale;
+    let into = Rect::from_origin_size(corner, size).inflate(little, little);
+    View::fit(bounds.inflate(little / scale, little / scale), into, false)
+}
+
+/// A line of text on the page.
+pub(crate) fn write(page: &mut Page, text: &str, at: Point, height: f64, colour: &str) {
+    let letters = lettering::text(text, at, height);
+    let thin = height / 8.0;
+    page.path(&letters, format_args!("fill=\"none\" stroke=\"{colour}\" stroke-width=\"{thin:.2}\""));
 }
 
 /// One comb scale for all, so that bends can be compared.
@@ -88,12 +141,12 @@ fn label_height(width: f64) -> f64 {
 }
 
 /// The largest scale at which all fit on the page, and where they lie then.
-fn arranged(boxes: &[Rect], names: &[String], width: f64) -> (f64, Rows) {
+fn arranged(boxes: &[Rect], names: &[String], width: f64, highest: f64) -> (f64, Rows) {
     let largest = boxes.iter().fold(0.0, |m: f64, b| m.max(b.width()).max(b.height()));
     let mut scale = if largest > 0.0 { width / largest } else { 1.0 };
     loop {
         let rows = rows(boxes, names, width, scale);
-        let fits = rows.height <= HIGHEST * width && rows.cells.iter().all(|cell| cell.x1 <= width);
+        let fits = rows.height <= highest && rows.cells.iter().all(|cell| cell.x1 <= width);
         if fits || scale * largest < SMALLEST_PX {
             return (scale, rows);
         }

@@ -2,7 +2,7 @@
 //! 11 of McCrae and Singh (2011) show it.
 
 use super::PictureOptions;
-use super::board::shape;
+use super::board::{shape, view_at, write};
 use super::drawing::{Pen, bounds, page_for, sane_size, thinned};
 use super::lettering;
 use super::page::{Page, Picture, View, colour, colour_of_piece};
@@ -12,7 +12,7 @@ use crate::stroke_file::StrokeFile;
 use crate::unit::YAxis;
 use fairpath_curve::{Point, Similarity, Spline, Vec2};
 use fairpath_fit::{Stroke, Template, TemplateSet};
-use kurbo::{BezPath, Rect};
+use kurbo::{Rect, Size};
 
 /// Width of the legend over that of the drawing.
 const LEGEND: f64 = 0.42;
@@ -26,7 +26,7 @@ const MOST_POINTS: f64 = 4000.0;
 const MOST_PIECES: usize = 2000;
 
 /// A picture of neatened strokes: beneath, each stroke; over it, each French curve that was used, whole and thin, with the part that was used
-/// thick in a colour of its own; on top, the result. Beside it, the French curves with their parts in the same colours, moved apart where
+/// thick in a colour of its own, and broad and pale where the result shows it, blends included; on top, thin and dark, the result. Beside it, the French curves with their parts in the same colours, moved apart where
 /// the same stretch was used more than once.
 ///
 /// Splines without pieces, and pieces of no template of `set`, are drawn without any. `options.size_px` and `ghost` count.
@@ -54,26 +54,22 @@ pub fn draw_pieces(
     for stroke in ghosts {
         ghost(&mut page, &view, pen, stroke);
     }
+    // Of many templates each is drawn more faintly, or the drawing would drown among them.
+    let faint = (5.0 / used.len().max(1) as f64).clamp(0.22, 0.6);
+    page.open(format_args!("fill=\"none\" stroke-width=\"{:.2}\" stroke-opacity=\"{faint:.2}\"", 0.7 * pen.unit));
     for used in &used {
-        let outline = view.spline(&used.laid());
-        page.path(
-            &outline,
-            format_args!(
-                "fill=\"none\" stroke=\"{}\" stroke-width=\"{:.2}\" opacity=\"0.55\"",
-                used.colour(),
-                0.7 * pen.unit
-            ),
-        );
+        page.path(&view.spline(&used.laid()), format_args!("stroke=\"{}\"", used.colour()));
+    }
+    page.close();
+    for used in &used {
+        used.draw_span(&mut page, &view, 6.0 * pen.unit);
     }
     for used in &used {
-        used.draw(&mut page, &view, 0.0, 5.0 * pen.unit, 0.75);
+        used.draw(&mut page, &view, &used.piece.transform, 0.0, 3.2 * pen.unit);
     }
     for spline in &shown {
         let curve = view.spline(spline);
-        page.path(
-            &curve,
-            format_args!("fill=\"none\" stroke=\"{}\" stroke-width=\"{:.2}\"", colour::MARK, 1.3 * pen.unit),
-        );
+        page.path(&curve, format_args!("fill=\"none\" stroke=\"{}\" stroke-width=\"{:.2}\"", colour::MARK, pen.unit));
     }
     page.close();
     let legend_at = Rect::new(drawing.x1, 0.0, page.bounds().x1, drawing.y1);
@@ -91,6 +87,8 @@ fn ghost(page: &mut Page, view: &View, pen: Pen, stroke: &Stroke) {
 /// A piece with the template that it is of.
 struct Used<'a> {
     piece: &'a UsedPiece,
+    /// The curve that it is seen in.
+    result: &'a Spline,
     template: &'a Template,
     /// Which of the set's templates.
     index: usize,
@@ -99,17 +97,33 @@ struct Used<'a> {
 }
 
 fn used<'a>(file: &'a SplineFile, set: &'a TemplateSet, drawable: &mut Drawable) -> Vec<Used<'a>> {
-    let pieces = file.splines.iter().filter_map(|e| e.templates.as_ref()).flat_map(|t| &t.pieces);
+    let pieces = file.splines.iter().flat_map(|entry| {
+        let pieces = entry.templates.iter().flat_map(|templates| &templates.pieces);
+        pieces.map(|piece| (piece, &entry.spline))
+    });
     pieces
-        .filter_map(|piece| {
+        .filter_map(|(piece, result)| {
             let index = set.templates().iter().position(|t| t.name() == piece.template)?;
-            Some((piece, index))
+            Some((piece, result, index))
         })
         .enumerate()
-        .map(|(number, (piece, index))| Used { piece, template: &set.templates()[index], index, number })
+        .map(|(number, (piece, result, index))| Used {
+            piece,
+            result,
+            template: &set.templates()[index],
+            index,
+            number,
+        })
         .filter(|used| drawable.admits(&used.laid()))
         .take(MOST_PIECES)
         .collect()
+}
+
+/// Arc lengths at equal steps from `from` to `to`, dense enough for a page of this scale.
+fn steps(from: f64, to: f64, scale: f64) -> impl Iterator<Item = f64> {
+    let count = ((to - from) * scale * POINTS_PER_PX).clamp(2.0, MOST_POINTS);
+    let count = if count.is_finite() { count as usize } else { 2 };
+    (0..=count).map(move |i| from + (to - from) * i as f64 / count as f64)
 }
 
 impl Used<'_> {
@@ -122,34 +136,33 @@ impl Used<'_> {
         self.template.spline().transformed(&self.piece.transform)
     }
 
-    /// The part that was used, as a line beside it at a distance on the page.
-    fn draw(&self, page: &mut Page, view: &View, beside: f64, width: f64, opacity: f64) {
-        self.draw_as(page, view, &self.piece.transform, beside, width, opacity);
-    }
-
-    fn draw_as(&self, page: &mut Page, view: &View, by: &Similarity, beside: f64, width: f64, opacity: f64) {
-        let spline = self.template.spline();
-        let on_page = self.piece.length * by.scale * view.scale;
-        let count = (on_page * POINTS_PER_PX).clamp(2.0, MOST_POINTS);
-        let steps = if count.is_finite() { count as usize } else { 2 };
-        // Corners are drawn too, although no step falls on them.
-        let mut stations: Vec<f64> =
-            (0..=steps).map(|i| self.piece.offset + self.piece.length * i as f64 / steps as f64).collect();
-        stations.extend(self.joins_inside());
-        stations.sort_by(f64::total_cmp);
-        let points = stations.into_iter().map(|s| {
-            let pose = spline.pose_at(s);
-            let along = view.direction(by.vector(spline.tangent_at(s)));
-            let along = along / along.hypot().max(f64::MIN_POSITIVE);
-            view.point(by.point(pose.point)) + Vec2::new(-along.y, along.x) * beside
-        });
+    /// Where the part is seen along the result, blends included, as a broad pale band.
+    fn draw_span(&self, page: &mut Page, view: &View, width: f64) {
+        let [from, to] = self.piece.span;
+        let points = steps(from, to, view.scale).map(|s| view.point(self.result.point_at(s)));
         page.polyline(
             points,
             format_args!(
-                "fill=\"none\" stroke=\"{}\" stroke-width=\"{width:.2}\" stroke-opacity=\"{opacity}\"",
+                "fill=\"none\" stroke=\"{}\" stroke-width=\"{width:.2}\" stroke-opacity=\"0.3\"",
                 self.colour()
             ),
         );
+    }
+
+    /// The part that was used, where `by` lays it, as a line beside it at a distance on the page.
+    fn draw(&self, page: &mut Page, view: &View, by: &Similarity, beside: f64, width: f64) {
+        let spline = self.template.spline();
+        let (from, to) = (self.piece.offset, self.piece.offset + self.piece.length);
+        // Corners are drawn too, although no step falls on them.
+        let mut stations: Vec<f64> = steps(from, to, by.scale * view.scale).collect();
+        stations.extend(self.joins_inside());
+        stations.sort_by(f64::total_cmp);
+        let points = stations.into_iter().map(|s| {
+            let along = view.direction(by.vector(spline.tangent_at(s)));
+            let along = along / along.hypot().max(f64::MIN_POSITIVE);
+            view.point(by.point(spline.point_at(s))) + Vec2::new(-along.y, along.x) * beside
+        });
+        page.polyline(points, format_args!("fill=\"none\" stroke=\"{}\" stroke-width=\"{width:.2}\"", self.colour()));
     }
 
     /// Stations of the template's joins within the piece, those of later rounds of a closed one included.
@@ -201,24 +214,17 @@ fn legend(page: &mut Page, into: Rect, pen: Pen, set: &TemplateSet, used: &[Used
     page.open_clipped(into, "legend");
     let mut top = into.y0 + padding;
     for ((&index, spline), bounds) in indices.iter().zip(splines).zip(&boxes) {
-        let size = kurbo::Size::new(bounds.width(), bounds.height()) * scale;
+        let size = Size::new(bounds.width(), bounds.height()) * scale;
         let corner = Point::new(into.x0 + padding, top + padding);
-        let view = View::fit(
-            bounds.inflate(1e-9 / scale, 1e-9 / scale),
-            Rect::from_origin_size(corner, size).inflate(1e-9, 1e-9),
-            false,
-        );
+        let view = view_at(*bounds, corner, scale);
         shape(page, &view, Pen { unit: 0.6 * pen.unit }, spline);
         let own: Vec<&Used<'_>> = used.iter().filter(|u| u.index == index).collect();
         for (u, level) in own.iter().zip(levels(&own)) {
-            u.draw_as(page, &view, &Similarity::IDENTITY, level * 4.5 * pen.unit, 3.2 * pen.unit, 0.9);
+            u.draw(page, &view, &Similarity::IDENTITY, level * 4.5 * pen.unit, 3.2 * pen.unit);
         }
         let name = lettering::shortened(set.templates()[index].name(), letters, into.width() - 2.0 * padding);
-        let text: BezPath = lettering::text(&name, Point::new(corner.x, corner.y + size.height + label), letters);
-        page.path(
-            &text,
-            format_args!("fill=\"none\" stroke=\"{}\" stroke-width=\"{:.2}\"", colour::LABEL, letters / 8.0),
-        );
+        let at = Point::new(corner.x, corner.y + size.height + label);
+        write(page, &name, at, letters, colour::LABEL);
         top += size.height + label + 2.0 * padding;
     }
     page.close();

@@ -5,15 +5,14 @@ use std::path::{Path, PathBuf};
 use anyhow::{Result, bail};
 use fairpath_curve::{Continuity, Spline};
 use fairpath_fit::{Template, TemplateSet};
-use fairpath_io::picture::{Comb, PictureOptions, draw_templates};
 use fairpath_io::{SHIPPED_TEMPLATES, encode_templates};
 
 use super::fit_report::plain;
 use super::{Ending, template_sets};
 use crate::args::{OutputFormat, TemplatesArgs};
-use crate::interrupt;
 use crate::output::{Destination, Ready};
 use crate::printer::{Printer, columns};
+use crate::{interrupt, pictures};
 
 pub(crate) fn run(args: &TemplatesArgs, printer: &mut Printer) -> Result<Ending> {
     if let Some(size) = args.pixel_size
@@ -34,9 +33,13 @@ pub(crate) fn run(args: &TemplatesArgs, printer: &mut Printer) -> Result<Ending>
         printer.result(&table(&sets))?;
         return Ok(Ending::Done);
     };
-    let set = one_set(&sets, args, &to.path)?;
+    let bytes = match to.format {
+        OutputFormat::Json => encode_templates(&one_set(&sets, args, &to.path)?)?,
+        OutputFormat::Png => pictures::sets(&sets, args.comb).to_png()?,
+        _ => pictures::sets(&sets, args.comb).to_svg().as_bytes().to_vec(),
+    };
     let mut ready = Ready::default();
-    ready.add(&to.path, encoded(&set, to.format, args.comb)?);
+    ready.add(&to.path, bytes);
     ready.write()?;
     Ok(Ending::Done)
 }
@@ -46,6 +49,9 @@ fn destination(path: &Path, args: &TemplatesArgs) -> Result<Destination> {
     let to = Destination::new(path, args.format)?;
     match to.format {
         OutputFormat::Json if args.comb => bail!("--comb: only a picture (svg or png) has a comb"),
+        OutputFormat::Svg | OutputFormat::Png if args.name.is_some() => {
+            bail!("--name: a picture names the sets as they are; write json first")
+        }
         OutputFormat::Json | OutputFormat::Svg | OutputFormat::Png => Ok(to),
         OutputFormat::Dxf | OutputFormat::Csv => {
             bail!("{}: a set is written as json, or drawn as svg or png", path.display())
@@ -63,17 +69,6 @@ fn one_set(sets: &[TemplateSet], args: &TemplatesArgs, output: &Path) -> Result<
     };
     let templates: Vec<Template> = sets.iter().flat_map(|set| set.templates().iter().cloned()).collect();
     Ok(TemplateSet::new(name, templates)?)
-}
-
-fn encoded(set: &TemplateSet, format: OutputFormat, comb: bool) -> Result<Vec<u8>> {
-    let mut options = PictureOptions::default();
-    options.joins = comb;
-    options.comb = if comb { Comb::Auto } else { Comb::Off };
-    Ok(match format {
-        OutputFormat::Json => encode_templates(set)?,
-        OutputFormat::Png => draw_templates(set, &options).to_png()?,
-        _ => draw_templates(set, &options).to_svg().as_bytes().to_vec(),
-    })
 }
 
 /// A line for each French curve; lengths are in px.

@@ -5,6 +5,7 @@ mod compare;
 mod editing;
 mod endings;
 mod examples;
+mod french_curves;
 mod inflate;
 mod pipes;
 mod references;
