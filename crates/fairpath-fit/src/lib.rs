@@ -36,8 +36,8 @@ mod walk;
 
 pub use curvature_space::{CurvatureEstimate, CurvatureSpaceOptions, Mode};
 pub use french_curve::{
-    Committed, CornerSource, Flips, FrenchCurveFit, FrenchCurveOptions, FrenchCurveStream, Laying, PieceSearch, Template, TemplateError, TemplatePiece,
-    TemplateSet,
+    Committed, CornerSource, Flips, FrenchCurveFit, FrenchCurveOptions, FrenchCurveStream, Laying, PieceSearch,
+    Template, TemplateError, TemplatePiece, TemplateSet,
 };
 pub use options::{ClosedSearch, Closing, Deviation, FitOptions, Preset, Resampling, Search, Transitions};
 pub use result::{Candidate, Fit, FitError, Observer, Report, Stages, Step, Warning};
@@ -88,6 +88,10 @@ pub fn fit_curvature_space(stroke: &Stroke, options: &CurvatureSpaceOptions) -> 
 ///
 /// # Errors
 /// As [`fit`].
-pub fn fit_french_curve(stroke: &Stroke, set: &TemplateSet, options: &FrenchCurveOptions) -> Result<FrenchCurveFit, FitError> {
+pub fn fit_french_curve(
+    stroke: &Stroke,
+    set: &TemplateSet,
+    options: &FrenchCurveOptions,
+) -> Result<FrenchCurveFit, FitError> {
     french_curve::fit(stroke, set, options)
 }

@@ -98,9 +98,7 @@ pub enum FitError {
         largest: f64,
     },
     /// The drawing is too long for the steps in which it is compared with templates.
-    #[error(
-        "the stroke is {length:e} long, more than {longest:e}; divide it, or set a larger pixel size or spacing"
-    )]
+    #[error("the stroke is {length:e} long, more than {longest:e}; divide it, or set a larger pixel size or spacing")]
     TooLong {
         /// Its length.
         length: f64,

@@ -1,7 +1,7 @@
 //! Sections whose templates are laid over the stroke, judged there, and divided where they do not fit (McCrae and Singh 2011, section 3.4).
 
-use super::guide::Guide;
 use super::growth::{Growth, Match};
+use super::guide::Guide;
 use super::laid::{Laid, by_ends, by_least_squares};
 use super::options::{FrenchCurveOptions, Laying};
 use super::part::Part;
@@ -20,7 +20,13 @@ pub(crate) struct Chosen {
 /// The pieces of a section: one if it fits, else those of its two best halves, and so on. A section of one step is taken as it is.
 ///
 /// Each half has at least a sixth of the whole, so that dividing takes no more than steps × nodes of the guides × the logarithm of the steps.
-pub(crate) fn fitting(section: Section, error: f64, part: &Part, guides: &[Guide], options: &FrenchCurveOptions) -> Vec<Chosen> {
+pub(crate) fn fitting(
+    section: Section,
+    error: f64,
+    part: &Part,
+    guides: &[Guide],
+    options: &FrenchCurveOptions,
+) -> Vec<Chosen> {
     let mut out = Vec::new();
     let mut waiting = vec![(section, error)];
     while let Some((section, error)) = waiting.pop() {
@@ -90,7 +96,8 @@ pub(crate) fn best_laid(
             }
         }
     }
-    let (_, laid, largest) = best.unwrap_or((0.0, by_least_squares(guides, guide, stretch(guide, node as f64), points), 0.0));
+    let (_, laid, largest) =
+        best.unwrap_or((0.0, by_least_squares(guides, guide, stretch(guide, node as f64), points), 0.0));
     (laid, largest)
 }
 

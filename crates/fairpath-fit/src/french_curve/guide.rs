@@ -159,7 +159,8 @@ pub(crate) fn guides(set: &TemplateSet, options: &FrenchCurveOptions) -> Vec<Gui
     for (template, curve) in set.templates().iter().enumerate() {
         for scale in scales(options) {
             for &(backward, turned_over) in ways {
-                let drawn = curve.spline().transformed(&Similarity { mirror: turned_over, scale, ..Similarity::IDENTITY });
+                let drawn =
+                    curve.spline().transformed(&Similarity { mirror: turned_over, scale, ..Similarity::IDENTITY });
                 let path = Path::new(if backward { drawn.reversed() } else { drawn });
                 let guide = Guide::new(template, path, options, Use { backward, turned_over, scale });
                 if !out.iter().any(|other: &Guide| other.is_same(&guide)) {

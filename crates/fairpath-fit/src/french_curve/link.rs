@@ -47,7 +47,11 @@ pub(crate) fn reach(laid: &Laid, guides: &[Guide], at_end: bool, options: &Frenc
     let path = &guides[laid.guide].path;
     let own = SHARE * (laid.to - laid.from);
     // A blend does not pass a corner of the template.
-    let free = if at_end { laid.to - path.smooth_stretch(laid.to - LEAST)[0] } else { path.smooth_stretch(laid.from)[1] - laid.from };
+    let free = if at_end {
+        laid.to - path.smooth_stretch(laid.to - LEAST)[0]
+    } else {
+        path.smooth_stretch(laid.from)[1] - laid.from
+    };
     options.blend.min(own).min(SHARE_OF_LEG * free)
 }
 

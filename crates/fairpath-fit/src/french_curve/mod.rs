@@ -53,7 +53,11 @@ pub struct FrenchCurveFit {
 }
 
 /// Fits a stroke.
-pub(crate) fn fit(stroke: &Stroke, set: &TemplateSet, options: &FrenchCurveOptions) -> Result<FrenchCurveFit, FitError> {
+pub(crate) fn fit(
+    stroke: &Stroke,
+    set: &TemplateSet,
+    options: &FrenchCurveOptions,
+) -> Result<FrenchCurveFit, FitError> {
     options.validate()?;
     if options.search == PieceSearch::Greedy {
         let mut stream = FrenchCurveStream::new(set, options)?;
@@ -142,8 +146,7 @@ fn error_of(section: Section, part: &Part, guides: &[Guide]) -> f64 {
 fn pieces_of_parts(track: &Track, line: &Polyline, guides: &[Guide], options: &FrenchCurveOptions) -> Pieces {
     let mut pieces = Pieces::new(track.shape != Shape::Open);
     let inner = (1..track.turn).filter(|&i| track.corner[i]);
-    let stops: Vec<f64> =
-        std::iter::once(0).chain(inner).chain([track.turn]).map(|i| track.all.station(i)).collect();
+    let stops: Vec<f64> = std::iter::once(0).chain(inner).chain([track.turn]).map(|i| track.all.station(i)).collect();
     for ends in stops.windows(2) {
         let part = Part::new(line, [ends[0], ends[1]], options.spacing, options.curvature_window);
         pieces.add(&part, guides, options);
@@ -159,7 +162,7 @@ fn pieces_of_ring(ring: Part, guides: &[Guide], options: &FrenchCurveOptions) ->
     let (found, _) = sections(&twice, guides, options.piece_cost);
     let seam = found.iter().skip(1).map(|s| s.first).min_by_key(|first| first.abs_diff(n)).unwrap_or(0);
     let mut pieces = Pieces::new(true);
-    pieces.add(&ring.from_seam(seam % n), guides, options);
+    pieces.add(&ring.begun_at(seam % n), guides, options);
     if let Some(after) = pieces.corner_after.last_mut() {
         *after = false;
     }
@@ -167,7 +170,12 @@ fn pieces_of_ring(ring: Part, guides: &[Guide], options: &FrenchCurveOptions) ->
 }
 
 /// One pass of the method.
-fn solve(stroke: &Stroke, cleaned: &Cleaned, guides: &[Guide], options: &FrenchCurveOptions) -> Result<FrenchCurveFit, FitError> {
+fn solve(
+    stroke: &Stroke,
+    cleaned: &Cleaned,
+    guides: &[Guide],
+    options: &FrenchCurveOptions,
+) -> Result<FrenchCurveFit, FitError> {
     let mut warnings = Vec::new();
     let mut warn = |code: &str, text: &str| warnings.push(Warning { code: code.into(), text: text.into() });
     let track = prepare(cleaned, &options.preparing());
@@ -183,8 +191,7 @@ fn solve(stroke: &Stroke, cleaned: &Cleaned, guides: &[Guide], options: &FrenchC
     if let Some(error) = too_long(line.length(), options) {
         return Err(error);
     }
-    let ring =
-        (track.shape == Shape::Ring).then(|| Part::ring(&line, options.spacing, options.curvature_window));
+    let ring = (track.shape == Shape::Ring).then(|| Part::ring(&line, options.spacing, options.curvature_window));
     let mut pieces = match &ring {
         Some(ring) => pieces_of_ring(ring.clone(), guides, options),
         None => pieces_of_parts(&track, &line, guides, options),
@@ -209,17 +216,33 @@ fn solve(stroke: &Stroke, cleaned: &Cleaned, guides: &[Guide], options: &FrenchC
         pose::settle_together(&mut pieces.laid, &points, &mut joints, guides, limit);
     }
     let links: Vec<Link> = (0..joints.len())
-        .map(|i| link(&pieces.laid[i], &pieces.laid[(i + 1) % pieces.laid.len()], joints[i], f64::NEG_INFINITY, guides, options))
+        .map(|i| {
+            link(
+                &pieces.laid[i],
+                &pieces.laid[(i + 1) % pieces.laid.len()],
+                joints[i],
+                f64::NEG_INFINITY,
+                guides,
+                options,
+            )
+        })
         .collect();
     let rough = links.iter().filter(|l| l.rough).count();
     if rough > 0 {
-        warn("rough-joints", &format!("{rough} pieces meet their neighbours too roughly to be blended; corners are left"));
+        warn(
+            "rough-joints",
+            &format!("{rough} pieces meet their neighbours too roughly to be blended; corners are left"),
+        );
     }
     let (parts, seen) = joined(&pieces, &joints, &links, guides);
     let spline = restored_spline(parts, cleaned);
     let mut out = Vec::new();
     if spline.is_some() {
-        out = seen.iter().zip(&pieces.laid).map(|(seen, laid)| described(laid, *seen, &guides[laid.guide], cleaned)).collect();
+        out = seen
+            .iter()
+            .zip(&pieces.laid)
+            .map(|(seen, laid)| described(laid, *seen, &guides[laid.guide], cleaned))
+            .collect();
     } else {
         warn("fell-back-to-polyline", "the pieces could not be joined; the stroke is given as a polyline");
     }

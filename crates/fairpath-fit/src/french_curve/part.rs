@@ -32,7 +32,7 @@ impl Part {
     }
 
     /// A ring begun at another node.
-    pub(crate) fn from_seam(mut self, seam: usize) -> Self {
+    pub(crate) fn begun_at(mut self, seam: usize) -> Self {
         self.points.pop();
         self.points.rotate_left(seam * POINTS_PER_NODE);
         self.points.push(self.points[0]);
@@ -56,6 +56,7 @@ fn even(line: &Polyline, [from, to]: [f64; 2], spacing: f64) -> (Vec<Vec2>, f64)
     let count = libm::round((to - from) / spacing).max(1.0);
     let between = (to - from) / (count * POINTS_PER_NODE as f64);
     let mut hint = 0;
-    let points = (0..=count as usize * POINTS_PER_NODE).map(|i| line.at(from + between * i as f64, &mut hint)).collect();
+    let points =
+        (0..=count as usize * POINTS_PER_NODE).map(|i| line.at(from + between * i as f64, &mut hint)).collect();
     (points, between * POINTS_PER_NODE as f64)
 }

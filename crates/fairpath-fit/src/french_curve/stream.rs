@@ -201,7 +201,10 @@ impl FrenchCurveStream {
         }
         let rough = made.links.iter().filter(|l| l.rough).count();
         if rough > 0 {
-            warn("rough-joints", format!("{rough} pieces meet their neighbours too roughly to be blended; corners are left"));
+            warn(
+                "rough-joints",
+                format!("{rough} pieces meet their neighbours too roughly to be blended; corners are left"),
+            );
         }
         let (parts, seen) = joined(&made.pieces, &made.joints, &made.links, &self.guides);
         let spline = restored_spline(parts, &frame).ok_or(unfittable)?;
@@ -232,8 +235,7 @@ impl FrenchCurveStream {
             return None;
         }
         let scale = self.options.stroke.pixel_size;
-        let frame =
-            self.frame.get_or_insert_with(|| Cleaned { points: Vec::new(), origin: point, scale, grain: 0.0 });
+        let frame = self.frame.get_or_insert_with(|| Cleaned { points: Vec::new(), origin: point, scale, grain: 0.0 });
         let p = (point - frame.origin) / scale;
         let Some(&last) = self.line.points.last() else {
             self.line = Polyline::new(vec![p]);
@@ -299,7 +301,8 @@ impl FrenchCurveStream {
     fn settle(&mut self, out: &mut Vec<Committed>) {
         let first = self.part.first;
         // A step that fits nothing is taken alone.
-        let (mut last, mut found) = self.part.best.unwrap_or_else(|| (first + 1, self.part.best_match(first + 1, &self.guides)));
+        let (mut last, mut found) =
+            self.part.best.unwrap_or_else(|| (first + 1, self.part.best_match(first + 1, &self.guides)));
         // It is to meet the piece before, if that does not draw it off the stroke.
         let before = Neighbours { before: self.made.end() };
         let (laid, error) = 'shorter: loop {
