@@ -1,7 +1,9 @@
 //! Fair curves from rough strokes: points in, a [`fairpath_curve::Spline`] of lines, arcs and clothoids with exact joins out, by the
-//! shortest-path method of Baran, Lehtinen and Popović (2010) or in curvature space after McCrae and Singh (2008).
+//! shortest-path method of Baran, Lehtinen and Popović (2010), in curvature space after McCrae and Singh (2008), or of pieces of French curves
+//! after McCrae and Singh (2011).
 //!
-//! - Fit a stroke: [`fit`]; in curvature space: [`fit_curvature_space`]. Watch its steps or keep every intermediate result: [`fit_observed`].
+//! - Fit a stroke: [`fit`]; in curvature space: [`fit_curvature_space`]; with French curves: [`fit_french_curve`], while
+//!   it is drawn: [`FrenchCurveStream`]. Watch its steps or keep every intermediate result: [`fit_observed`].
 //! - Choose between fewer segments and less deviation: [`FitOptions::preset`], [`Preset`].
 //!
 //! ```
