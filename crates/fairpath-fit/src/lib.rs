@@ -1,8 +1,12 @@
 //! Fair curves from rough strokes: points in, a [`fairpath_curve::Spline`] of lines, arcs and clothoids with exact joins out, by the
-//! shortest-path method of Baran, Lehtinen and Popović (2010) or in curvature space after McCrae and Singh (2008).
+//! shortest-path method of Baran, Lehtinen and Popović (2010), in curvature space after McCrae and Singh (2008), or of pieces of French curves
+//! after McCrae and Singh (2011).
 //!
-//! - Fit a stroke: [`fit`]; in curvature space: [`fit_curvature_space`]. Watch its steps or keep every intermediate result: [`fit_observed`],
-//!   [`fit_curvature_space_observed`].
+//! - Fit a stroke: [`fit`]; in curvature space: [`fit_curvature_space`]; with French curves: [`fit_french_curve`], while it is drawn:
+//!   [`FrenchCurveStream`]. Watch the steps or keep every intermediate result: [`fit_observed`], [`fit_curvature_space_observed`].
+//! - Compare with simpler methods: [`fit_laplacian`], [`fit_cubic`], [`fit_mvc`].
+//! - Correct a curve by a stroke drawn over it: [`oversketch`]; edit it: [`extend`], [`cut`], [`join`], [`close`], [`interpolate`],
+//!   [`smooth_corner`], [`make_corner`].
 //! - Choose between fewer segments and less deviation: [`FitOptions::preset`], [`Preset`].
 //!
 //! ```

@@ -22,7 +22,6 @@ use crate::direction::{is_backward, turned_round};
 use crate::options::FitOptions;
 use crate::result::{Fit, FitError, Observer, Report, Step, Warning};
 use crate::stroke::Stroke;
-use crate::track::Shape;
 use crate::walk::Datum;
 use blend::{blended, rounded};
 use compose::{Profile, placed};

@@ -102,3 +102,41 @@ const SLOWEST: f64 = 0.05;
 /// Largest length of a blend, as a multiple of that of the pieces; and of its clothoids, as a multiple of its own.
 const LONGEST: f64 = 1.6;
 const LOOSE: f64 = 1.2;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use fairpath_curve::{Continuity, Point, Spline};
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn clothoids_follow_the_blend_and_meet_both_pieces(
+            gap in prop_oneof![Just(0.0), -3.0..3.0_f64], turn in -0.3..0.3_f64, a in -0.05..0.05_f64, b in prop_oneof![Just(0.0), -0.05..0.05_f64],
+            length in 4.0..60.0_f64,
+        ) {
+            let gap = gap * (length / 40.0);
+            let from = Segment::arc(Point::new(7.0, 3.0), 0.5, length, a);
+            let middle = from.pose_at(0.5 * length);
+            let begin = middle.point + trig::unit(middle.heading + 1.5) * gap;
+            let half = Segment::arc(begin, middle.heading + turn, 0.5 * length, b);
+            let back = Segment::arc(begin, middle.heading + turn + std::f64::consts::PI, 0.5 * length, -b);
+            let into = Segment::arc(back.end(), back.end_heading() - std::f64::consts::PI, length, b);
+            prop_assert!((into.end() - half.end()).hypot() < 1e-9);
+            let stretches = Stretches { from: |t: f64| from.pose_at(length * t), into: |t: f64| into.pose_at(length * t), length };
+            let chain = stretches.clothoids(0.05).expect("it does not turn back");
+            let spline = Spline::new(chain.clone(), vec![Continuity::G2; chain.len() - 1], false);
+            prop_assert!(spline.is_ok(), "{:?}", spline);
+            let spline = spline.unwrap();
+            let (begin, end) = (spline.start_pose(), spline.end_pose());
+            prop_assert_eq!(begin, from.start_pose());
+            prop_assert!((end.point - into.end()).hypot() < 1e-9 && (end.curvature - b).abs() < 1e-9);
+            prop_assert!(trig::wrap_angle(end.heading - into.end_heading()).abs() < 1e-9);
+            for i in 0..=50 {
+                let point = stretches.state(f64::from(i) / 50.0).point;
+                // Between the places that were looked at it may be a little further.
+                prop_assert!(spline.nearest(point.to_point()).distance < 0.1);
+            }
+        }
+    }
+}

@@ -146,9 +146,8 @@ struct Use {
     scale: f64,
 }
 
-/// All ways of using the templates of a set: equation 3 for each, equation 4 for those that are run through backward.
-///
-/// The stroke may itself be fitted from its end (`reversed`), which matters only where templates must not be.
+/// All ways of using the templates of a set: equation 3 for each, equation 4 for those that are run through backward. A way that is no
+/// other than one before is left out.
 pub(crate) fn guides(set: &TemplateSet, options: &FrenchCurveOptions) -> Vec<Guide> {
     let ways: &[(bool, bool)] = match options.flips {
         Flips::None => &[(false, false)],

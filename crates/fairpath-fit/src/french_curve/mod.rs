@@ -162,7 +162,7 @@ fn pieces_of_ring(ring: Part, guides: &[Guide], options: &FrenchCurveOptions) ->
     let (found, _) = sections(&twice, guides, options.piece_cost);
     let seam = found.iter().skip(1).map(|s| s.first).min_by_key(|first| first.abs_diff(n)).unwrap_or(0);
     let mut pieces = Pieces::new(true);
-    pieces.add(&ring.from_seam(seam % n), guides, options);
+    pieces.add(&ring.begun_at(seam % n), guides, options);
     if let Some(after) = pieces.corner_after.last_mut() {
         *after = false;
     }

@@ -32,7 +32,7 @@ impl Part {
     }
 
     /// A ring begun at another node.
-    pub(crate) fn from_seam(mut self, seam: usize) -> Self {
+    pub(crate) fn begun_at(mut self, seam: usize) -> Self {
         self.points.pop();
         self.points.rotate_left(seam * POINTS_PER_NODE);
         self.points.push(self.points[0]);

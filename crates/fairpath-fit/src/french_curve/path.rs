@@ -183,3 +183,58 @@ pub(crate) fn prolonged(pose: Pose, way: f64) -> Pose {
     let arc = if way > 0.0 { arc } else { Segment { heading: pose.heading + std::f64::consts::PI, ..arc } };
     Pose { point: arc.end(), heading: trig::wrap_angle(pose.heading + way * pose.curvature), curvature: pose.curvature }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use fairpath_curve::Point;
+
+    fn square() -> Path {
+        let mut segments = vec![Segment::line(Point::ORIGIN, 0.0, 10.0)];
+        for i in 1..4 {
+            segments.push(Segment::line(segments[i - 1].end(), 0.5 * std::f64::consts::PI * i as f64, 10.0));
+        }
+        Path::new(Spline::new(segments, vec![Continuity::G0; 4], true).unwrap())
+    }
+
+    #[test]
+    fn a_closed_path_goes_on_without_end() {
+        let path = square();
+        for v in [-47.0, -3.0, 4.0, 83.0] {
+            let (here, there) = (path.pose(v), path.pose(v + 40.0));
+            assert!((here.point - there.point).hypot() < 1e-12, "{v}");
+        }
+        let (segments, joins) = path.part(-5.0, 77.0);
+        assert_eq!((segments.len(), joins.len()), (9, 8));
+        let length: f64 = segments.iter().map(|s| s.length).sum();
+        assert!((length - 82.0).abs() < 1e-12);
+        assert!((segments[0].start - path.pose(-5.0).point).hypot() < 1e-12);
+        assert!((segments[8].end() - path.pose(77.0).point).hypot() < 1e-12);
+    }
+
+    #[test]
+    fn corners_bound_smooth_stretches() {
+        let path = square();
+        assert_eq!(path.corners, [0.0, 10.0, 20.0, 30.0]);
+        assert_eq!(path.smooth_stretch(13.0), [10.0, 20.0]);
+        assert_eq!(path.smooth_stretch(-3.0), [-10.0, 0.0]);
+        assert_eq!(path.smooth_stretch(10.0), [10.0, 20.0]);
+        assert_eq!(path.leg(57.0), Some([50.0, 60.0]));
+        assert!(path.has_corner(40.0) && path.has_corner(-10.0) && !path.has_corner(5.0));
+    }
+
+    #[test]
+    fn beyond_its_range_a_path_follows_its_touching_circle() {
+        let arc = Segment::arc(Point::ORIGIN, 0.0, 20.0, 0.1);
+        let path = Path::new(Spline::new(vec![arc], Vec::new(), false).unwrap());
+        let whole = Segment::arc(Point::ORIGIN, 0.0, 30.0, 0.1);
+        for v in [20.0, 25.0, 30.0] {
+            let (ours, theirs) = (path.pose_within(v, [0.0, 20.0]), whole.pose_at(v));
+            assert!((ours.point - theirs.point).hypot() < 1e-12);
+            assert!((trig::wrap_angle(ours.heading - theirs.heading)).abs() < 1e-12);
+        }
+        let before = path.pose_within(-5.0, [0.0, 20.0]);
+        assert!((before.point - whole.reversed().reversed().point_at(0.0)).hypot() > 4.0);
+        assert!((Segment::arc(before.point, before.heading, 5.0, 0.1).end() - Point::ORIGIN).hypot() < 1e-12);
+    }
+}

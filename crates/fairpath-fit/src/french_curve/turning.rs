@@ -72,3 +72,63 @@ const OFF_ENDS: f64 = 0.6;
 
 /// Root of the weight of the outermost points, so that they count at all where there are few.
 const LEAST: f64 = 1e-3;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Points every 1.5 px along an arc.
+    fn arc(radius: f64, count: usize) -> Vec<Vec2> {
+        (0..count).map(|i| trig::unit(1.5 * i as f64 / radius) * radius).collect()
+    }
+
+    #[test]
+    fn an_arc_turns_alike_up_to_its_ends() {
+        for t in turnings(&arc(40.0, 81), 10.0, false) {
+            // Parabolas are arcs but for the third order.
+            assert!((t - 3.0 / 40.0).abs() < 5e-3, "{t}");
+        }
+    }
+
+    #[test]
+    fn a_closed_curve_turns_once_around() {
+        let n = 84;
+        let points: Vec<Vec2> = (0..n)
+            .map(|i| trig::unit(std::f64::consts::TAU * f64::from(i) / f64::from(n)))
+            .map(|u| Vec2::new(30.0 * u.x, 12.0 * u.y))
+            .collect();
+        let sum: f64 = turnings(&points, 10.0, true).iter().sum();
+        assert!((sum - std::f64::consts::TAU).abs() < 1e-9, "{sum}");
+    }
+
+    #[test]
+    fn the_hump_of_a_corner_holds_its_angle() {
+        for angle in [0.4, 1.5, -2.0_f64] {
+            let leg = |i: usize| {
+                if i < 40 {
+                    Vec2::new(1.5 * i as f64, 0.0)
+                } else {
+                    Vec2::new(60.0, 0.0) + trig::unit(angle) * (1.5 * (i - 40) as f64)
+                }
+            };
+            let points: Vec<Vec2> = (0..81).map(leg).collect();
+            let found = turnings(&points, 10.0, false);
+            let sum: f64 = found.iter().sum();
+            assert!((sum - angle).abs() < 1e-9, "{sum}");
+            // Nothing of it is seen further away than the neighbourhood reaches.
+            assert!(found[..14].iter().chain(&found[26..]).all(|t| t.abs() < 1e-9), "{found:?}");
+        }
+    }
+
+    #[test]
+    fn what_is_settled_does_not_change_with_further_points() {
+        let points = arc(25.0, 121);
+        let reach = 10.0;
+        for length in [15, 31, 61] {
+            let so_far = &points[..length];
+            for at in (0..length).filter(|&at| is_settled(at, length, reach)) {
+                assert_eq!(heading(so_far, at, reach, false), heading(&points, at, reach, false), "{at} of {length}");
+            }
+        }
+    }
+}
