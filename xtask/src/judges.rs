@@ -122,6 +122,40 @@ pub(crate) fn gltf() -> Result<Outcome> {
     Ok(Outcome::Passed(format!("the glTF validator has no word against {} files", files.len())))
 }
 
+/// The page of a comparison, opened in a browser: its script runs to the end, and what it writes is there.
+pub(crate) fn page() -> Result<Outcome> {
+    let browser = match tools::chromium() {
+        Ok(browser) => browser,
+        Err(error) if tree::on_build_server() => return Err(error),
+        Err(error) => return Ok(Outcome::Skipped(format!("{error:#}"))),
+    };
+    let folder = tree::scratch("judges")?;
+    let page = folder.join("comparison.html");
+    let mut compare = Command::new(tree::fairpath()?);
+    process::run(compare.arg("compare").arg(tree::root().join("examples/hello.json")).arg("-o").arg(&page))?;
+    let open = |page: &Path| {
+        let mut command = Command::new(browser);
+        command.args(["--headless=new", "--no-sandbox", "--disable-gpu", "--virtual-time-budget=10000", "--dump-dom"]);
+        let ran = process::capture(command.arg(format!("file://{}", page.display())))?;
+        Ok::<_, anyhow::Error>(ran.text)
+    };
+    // Written by the script, the last of it after everything else.
+    let missing = |shown: &str| {
+        let marks = ["<td class=\"best\">", "aria-current=\"true\"", "class=\"cursor\"", "vector-effect", "6 methods"];
+        marks.into_iter().find(|mark| !shown.contains(mark))
+    };
+    if let Some(mark) = missing(&open(&page)?) {
+        bail!("the page does not show {mark}: its script did not run to the end");
+    }
+    let broken = folder.join("broken.html");
+    let text = fs::read_to_string(&page)?;
+    fs::write(&broken, text.replace("function figures()", "function figures("))?;
+    if missing(&open(&broken)?).is_none() {
+        bail!("the judge passes a broken script, so its word is worth nothing");
+    }
+    Ok(Outcome::Passed("the page of a comparison runs in a browser".into()))
+}
+
 fn fitted_example() -> Result<(PathBuf, PathBuf)> {
     let folder = tree::scratch("judges")?;
     let spline = folder.join("hello.json");

@@ -5,6 +5,7 @@ mod data;
 mod evaluate;
 mod fuzz;
 mod generate;
+mod growth;
 mod judges;
 mod layers;
 mod limits;
@@ -34,7 +35,7 @@ struct Cli {
 enum Chore {
     /// The one test command: style, lints, tests, documentation, layers and every outside judge.
     Test,
-    /// The judges alone: kernel, DXF, SVG and glTF.
+    /// The judges alone: kernel, DXF, SVG, glTF and the page of a comparison.
     Judge,
     /// Fit every file of the shared data folder, judge the results and hold them against the limits.
     Evaluate {
@@ -46,6 +47,12 @@ enum Chore {
         /// Only files whose names begin so.
         names: Vec<String>,
         /// Each stroke's time is the best of so many.
+        #[arg(long, default_value_t = 5)]
+        repeat: usize,
+    },
+    /// Time of each method over the number of points.
+    Growth {
+        /// Each time is the best of so many.
         #[arg(long, default_value_t = 5)]
         repeat: usize,
     },
@@ -88,6 +95,7 @@ fn main() -> ExitCode {
         Chore::Judge => test::judge(),
         Chore::Evaluate { names } => evaluate::run(&names),
         Chore::Bench { names, repeat } => bench::run(&names, repeat),
+        Chore::Growth { repeat } => growth::run(repeat),
         Chore::Table1 { repeat, write } => table1::run(repeat, write),
         Chore::Fuzz { seconds } => fuzz::run(seconds),
         Chore::Generate { check } => generate::run(check),

@@ -53,6 +53,7 @@ fn add_judges(steps: &mut Steps) {
     steps.step("judge: DXF", judges::dxf);
     steps.step("judge: SVG", judges::svg);
     steps.step("judge: glTF", judges::gltf);
+    steps.step("judge: page", judges::page);
 }
 
 fn command(args: &[&str], note: &str) -> Result<Outcome> {

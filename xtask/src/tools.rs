@@ -54,6 +54,16 @@ pub(crate) fn rsvg_convert() -> Result<()> {
     if process::exists("rsvg-convert") { Ok(()) } else { apt("librsvg2-bin") }
 }
 
+/// The browser, if it can be had.
+pub(crate) fn chromium() -> Result<&'static str> {
+    const NAMES: [&str; 3] = ["chromium", "chromium-browser", "google-chrome"];
+    if let Some(name) = NAMES.into_iter().find(|name| process::exists(name)) {
+        return Ok(name);
+    }
+    apt("chromium")?;
+    Ok(NAMES[0])
+}
+
 /// The folder of the glTF validator, installed with Node's package manager in the version that the lock file pins.
 pub(crate) fn gltf_validator() -> Result<PathBuf> {
     for (program, package) in [("node", "nodejs"), ("npm", "npm")] {

@@ -25,9 +25,8 @@ pub use stream::{Committed, FrenchCurveStream};
 pub use template::{Template, TemplateError, TemplateSet};
 
 use crate::clean::{Cleaned, clean};
-use crate::conclude::{Parts, describe, polyline, restored_spline};
+use crate::conclude::{Parts, closing_warnings, describe, polyline, restored_spline};
 use crate::direction::is_backward;
-use crate::options::Closing;
 use crate::polyline::Polyline;
 use crate::result::{Fit, FitError, Report, Warning};
 use crate::stroke::Stroke;
@@ -176,15 +175,9 @@ fn solve(
     guides: &[Guide],
     options: &FrenchCurveOptions,
 ) -> Result<FrenchCurveFit, FitError> {
-    let mut warnings = Vec::new();
-    let mut warn = |code: &str, text: &str| warnings.push(Warning { code: code.into(), text: text.into() });
     let track = prepare(cleaned, &options.preparing());
-    if track.trimmed > 0 {
-        warn("closed-by-trimming", &format!("the stroke's ends overshoot: {} points were cut off", track.trimmed));
-    }
-    if options.stroke.closed == Closing::Yes && track.shape == Shape::Open {
-        warn("not-closed", "the stroke was to be closed, but nothing would remain of it; it is fitted as an open one");
-    }
+    let mut warnings = closing_warnings(&track, options.stroke.closed);
+    let mut warn = |code: &str, text: &str| warnings.push(Warning { code: code.into(), text: text.into() });
     let last = track.all.samples[track.turn];
     let data = &track.all.data[..=last];
     let line = Polyline::new(data.iter().map(|d| d.point).collect());
@@ -204,6 +197,7 @@ fn solve(
         let seen = Seen { used: [0.0, length], span: [0.0, length] };
         if let Some(spline) = restored_spline(all_around(&laid, guides), cleaned) {
             report.cost = error + options.piece_cost;
+            report.pieces = 1;
             describe(&mut report, &spline, stroke, options.stroke.pixel_size);
             let piece = described(&laid, seen, &guides[laid.guide], cleaned);
             return Ok(FrenchCurveFit { fit: Fit { spline, report, warnings }, pieces: vec![piece] });
@@ -249,6 +243,7 @@ fn solve(
     let spline = spline
         .or_else(|| restored_spline(polyline(&track), cleaned))
         .ok_or(FitError::Unfittable { points: stroke.points.len() })?;
+    report.pieces = out.len();
     describe(&mut report, &spline, stroke, options.stroke.pixel_size);
     Ok(FrenchCurveFit { fit: Fit { spline, report, warnings }, pieces: out })
 }

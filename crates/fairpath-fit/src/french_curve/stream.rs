@@ -208,7 +208,7 @@ impl FrenchCurveStream {
         }
         let (parts, seen) = joined(&made.pieces, &made.joints, &made.links, &self.guides);
         let spline = restored_spline(parts, &frame).ok_or(unfittable)?;
-        let pieces = seen
+        let pieces: Vec<TemplatePiece> = seen
             .iter()
             .zip(&made.pieces.laid)
             .map(|(seen, laid)| described(laid, *seen, &self.guides[laid.guide], &frame))
@@ -217,6 +217,7 @@ impl FrenchCurveStream {
             points: self.points.len(),
             samples: made.pieces.cells,
             cost: made.pieces.cost,
+            pieces: pieces.len(),
             ..Report::default()
         };
         describe(&mut report, &spline, &Stroke::new("", self.points), self.options.stroke.pixel_size);
