@@ -9,6 +9,7 @@ mod growth;
 mod judges;
 mod layers;
 mod limits;
+mod pictures;
 mod process;
 mod rectilinear;
 mod steps;
@@ -56,6 +57,8 @@ enum Chore {
         #[arg(long, default_value_t = 5)]
         repeat: usize,
     },
+    /// Take the pictures of pages for the documents anew, by a browser.
+    Pictures,
     /// The paper's table 1 for the like strokes of the shared data folder.
     Table1 {
         /// Each stroke's row is the fastest of so many.
@@ -96,6 +99,7 @@ fn main() -> ExitCode {
         Chore::Evaluate { names } => evaluate::run(&names),
         Chore::Bench { names, repeat } => bench::run(&names, repeat),
         Chore::Growth { repeat } => growth::run(repeat),
+        Chore::Pictures => pictures::run(),
         Chore::Table1 { repeat, write } => table1::run(repeat, write),
         Chore::Fuzz { seconds } => fuzz::run(seconds),
         Chore::Generate { check } => generate::run(check),

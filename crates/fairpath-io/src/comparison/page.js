@@ -234,6 +234,8 @@ function strokes() {
 }
 
 function render() {
+  // What is seen can be linked to.
+  history.replaceState(null, "", "#" + new URLSearchParams({ stroke: stroke().name, view: state.view }));
   drawings();
   plot();
   figures();
@@ -245,7 +247,6 @@ function render() {
 
 function show(i) {
   state.stroke = (i + data.strokes.length) % data.strokes.length;
-  history.replaceState(null, "", "#" + encodeURIComponent(stroke().name));
   strokes();
   render();
   document.querySelector("[aria-current=true]")?.scrollIntoView({ block: "nearest" });
@@ -271,5 +272,7 @@ document.addEventListener("keydown", (event) => {
 });
 $("subtitle").textContent = `${data.strokes.length} strokes, ${data.methods.length} methods. Arrow keys go through the strokes.`;
 summary();
-const asked = data.strokes.findIndex((s) => s.name === decodeURIComponent(location.hash.slice(1)));
+const link = new URLSearchParams(location.hash.slice(1));
+if (link.get("view") === "alone") state.view = "alone";
+const asked = data.strokes.findIndex((s) => s.name === link.get("stroke"));
 if (data.strokes.length) show(Math.max(0, asked));
