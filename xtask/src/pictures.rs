@@ -8,6 +8,7 @@ use crate::{process, tools, tree};
 
 /// Writes `docs/comparison.png`: every method on one of the synthetic strokes.
 pub(crate) fn run() -> Result<()> {
+    process::run(&mut process::cargo(&["build", "--release", "--package", "fairpath"]))?;
     let browser = tools::chromium()?;
     let page = tree::scratch("pictures")?.join("comparison.html");
     let mut compare = Command::new(tree::fairpath()?);

@@ -23,6 +23,9 @@ use fairpath_curve::{Continuity, Kind, Segment};
 /// Effort of bringing the pieces together.
 const JOIN: Effort = Effort { rounds: 20, tolerance: 1e-2 };
 
+/// Effort of merges on the way, which only prepare for the last.
+const ON_THE_WAY: Effort = Effort { rounds: 8, tolerance: 5e-3 };
+
 /// Effort of the last merge: it starts from pieces that are nearly in place.
 const FINAL: Effort = Effort { rounds: 14, tolerance: 1e-3 };
 
@@ -105,16 +108,16 @@ pub(crate) fn refined(runs: &[Run], ground: &Ground, options: &CurvatureSpaceOpt
     let mut begin = runs[0].from;
     if options.simplify {
         let mut measured = merge(&mut coarse, JOIN)?;
-        measured = refine(&mut coarse, measured, &costs, FINAL)?;
+        measured = refine(&mut coarse, measured, &costs, ON_THE_WAY)?;
         if ring {
             // What lies at the seam is looked at from the other side.
             if let Some((other, from)) = half_round(&coarse, &measured, ground, begin) {
                 (coarse, begin) = (other, from);
-                measured = merge(&mut coarse, FINAL)?;
-                measured = refine(&mut coarse, measured, &costs, FINAL)?;
+                measured = merge(&mut coarse, ON_THE_WAY)?;
+                measured = refine(&mut coarse, measured, &costs, ON_THE_WAY)?;
             }
         }
-        straighten(&mut coarse, measured, &costs, FINAL)?;
+        straighten(&mut coarse, measured, &costs, ON_THE_WAY)?;
     }
     let all = run(&ground.track, &ground.track.all, begin);
     let line = polyline_of(all);
