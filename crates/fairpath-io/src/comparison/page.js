@@ -69,6 +69,9 @@ function combScale() {
   return high > 0 ? (100 / high) * Math.pow(2, Number($("height").value)) : 0;
 }
 
+// Lines are as wide on the screen at every scale of the drawing.
+const pen = (width) => ({ fill: "none", "stroke-width": width, "vector-effect": "non-scaling-stroke" });
+
 function comb(curve, scale, ink) {
   let teeth = "", tips = "", broken = true;
   const corners = new Set();
@@ -81,8 +84,8 @@ function comb(curve, scale, ink) {
     tips += (broken ? "M" : "L") + tip;
     broken = corners.has(x + "," + y) && !broken;
   }
-  return element("g", { fill: "none", stroke: ink, "stroke-width": 0.8 }, [
-    element("path", { d: teeth, opacity: 0.35 }), element("path", { d: tips, "stroke-width": 1.3, opacity: 0.8 })]);
+  return element("g", { stroke: ink }, [
+    element("path", { d: teeth, opacity: 0.4, ...pen(0.7) }), element("path", { d: tips, opacity: 0.9, ...pen(1.1) })]);
 }
 
 function drawing(methods, byKind) {
@@ -93,14 +96,14 @@ function drawing(methods, byKind) {
   if ($("ghost").checked) {
     const list = [];
     for (let k = 0; k < points.length; k += 2) list.push(points[k] + "," + points[k + 1]);
-    svg.append(element("polyline", { points: list.join(" "), fill: "none", stroke: "var(--ghost)", "stroke-width": byKind ? 6 : 4 }));
+    svg.append(element("polyline", { points: list.join(" "), stroke: "var(--ghost)", ...pen(4) }));
   }
   const scale = state.comb[state.view] ? combScale() : 0;
   for (const i of methods) {
     const curve = curves[i];
     if (curve.failure) continue;
     if (scale > 0) svg.append(comb(curve, scale, byKind ? "#9a86c9" : colour(i)));
-    curve.paths.forEach((d, kind) => svg.append(element("path", { d, fill: "none", "stroke-width": byKind ? 3.2 : 2.6,
+    curve.paths.forEach((d, kind) => svg.append(element("path", { d, ...pen(byKind ? 2 : 1.7),
       stroke: byKind ? `var(${KINDS[kind]})` : colour(i) })));
     if ($("joins").checked) {
       for (let k = 0; k < curve.joins.length; k += 3) {
@@ -151,7 +154,7 @@ function plot() {
   shown.forEach((i, n) => {
     let d = "";
     for (let k = 0; k < profiles[n].length; k += 2) d += (k ? "L" : "M") + x(profiles[n][k]).toFixed(1) + " " + y(profiles[n][k + 1]).toFixed(1);
-    svg.append(element("path", { d, fill: "none", stroke: colour(i), "stroke-width": 1.6, "vector-effect": "non-scaling-stroke" }));
+    svg.append(element("path", { d, stroke: colour(i), ...pen(1.6) }));
   });
   const cursor = element("line", { y1: 0, y2: PLOT.height - PLOT.bottom, stroke: "var(--soft)", visibility: "hidden" });
   svg.append(cursor);
