@@ -44,7 +44,7 @@ fn main() {
             let low = angles.iter().filter(|a| **a < 20.0).count() as f64 / angles.len() as f64;
             println!(
                 "{name:<20} {triangles:>6}  {count:>8}  {:>5}  {ms:>7.1}  {:>6.2}  {:.6}  {:.1}° {:.1}° {:.1}° {low:.4}  {}",
-                inflated.rim,
+                inflated.rims.iter().map(|rim| rim.len()).sum::<usize>(),
                 ms * 1e3 / count as f64,
                 mesh.volume(),
                 angles[0],

@@ -11,7 +11,8 @@
 //!
 //! The height over the plane of the curve is √u, where Δu = −4 inside and u = 0 on the curve: the shape of a membrane under even pressure,
 //! under the square root. The back is the front mirrored. A circle becomes its sphere, an ellipse an ellipsoid, whose third half axis is
-//! √(2 / (1/a² + 1/b²)), and wherever the curve is smooth the surface is too: it crosses the plane upright.
+//! √(2 / (1/a² + 1/b²)), and wherever the curve is smooth the surface is too: it crosses the plane upright. A curve that crosses itself
+//! is inflated over all that it winds around: an eight becomes two drops, a pentagram a star.
 //!
 //! ```
 //! use fairpath_curve::{Continuity, Point, Segment, Spline};
@@ -40,6 +41,7 @@ mod rim;
 mod shore;
 mod surface;
 mod triangulation;
+mod uncrossed;
 
 pub use error::InflateError;
 pub use inflate::{Inflated, inflate};

@@ -81,6 +81,14 @@ fn norm(a: [f64; 3]) -> f64 {
 }
 
 impl Mesh {
+    /// Adds another mesh, which shares no vertex with this one.
+    pub(crate) fn append(&mut self, other: Self) {
+        let before = self.vertices.len() as u32;
+        self.vertices.extend(other.vertices);
+        self.normals.extend(other.normals);
+        self.triangles.extend(other.triangles.into_iter().map(|t| t.map(|v| v + before)));
+    }
+
     fn corners(&self, triangle: [u32; 3]) -> [[f64; 3]; 3] {
         triangle.map(|i| self.vertices[i as usize])
     }

@@ -32,27 +32,13 @@ pub(crate) struct Outline {
 }
 
 impl Outline {
+    /// The outline of a spline that does not cross itself.
+    ///
     /// # Errors
-    /// When the spline is open, encloses nothing, meets itself or is beyond all measure.
+    /// When the spline is open, encloses nothing or is beyond all measure.
     pub(crate) fn new(spline: &Spline) -> Result<Self, InflateError> {
-        if !spline.is_closed() {
-            return Err(InflateError::Open);
-        }
-        let turning: f64 = spline.segments().iter().map(|s| s.absolute_turning()).sum();
-        if !(turning <= MOST_TURNING) {
-            return Err(InflateError::TooWinding { turning, limit: MOST_TURNING });
-        }
-        let bounds = spline.bounding_box();
-        let reach = [bounds.x0, bounds.y0, bounds.x1, bounds.y1].iter().fold(0.0_f64, |m, v| m.max(v.abs()));
-        if !(reach <= LARGEST) {
-            return Err(InflateError::TooLarge { limit: LARGEST });
-        }
-        let size = bounds.width().max(bounds.height());
-        if !(size >= LEAST && size > SMALLEST * reach) {
-            return Err(InflateError::TooSmall { size, reach });
-        }
-        refuse_crossings(spline)?;
-        let area = signed_area(spline, bounds.center());
+        let (centre, size, reach) = measured(spline)?;
+        let area = signed_area(spline, centre);
         if !(area.abs() > NO_AREA * size * size) {
             return Err(InflateError::TooSmall { size, reach });
         }
@@ -61,14 +47,8 @@ impl Outline {
         for segment in spline.segments() {
             knots.push(knots[knots.len() - 1] + segment.length / size);
         }
-        let mut outline = Self {
-            spline,
-            centre: bounds.center(),
-            scale: size,
-            area: area.abs() / (size * size),
-            corners: Vec::new(),
-            knots,
-        };
+        let mut outline =
+            Self { spline, centre, scale: size, area: area.abs() / (size * size), corners: Vec::new(), knots };
         outline.corners = outline.find_corners();
         Ok(outline)
     }
@@ -132,15 +112,26 @@ fn signed_area(spline: &Spline, centre: Point) -> f64 {
     0.5 * points.windows(2).map(|w| (w[0] - centre).cross(w[1] - centre)).sum::<f64>()
 }
 
-fn refuse_crossings(spline: &Spline) -> Result<(), InflateError> {
-    let found = spline.self_intersections();
-    let Some(first) = found.first() else { return Ok(()) };
-    let station = |place: fairpath_curve::Place| spline.station(place.segment, place.s);
-    Err(InflateError::MeetsItself {
-        x: first.point.x,
-        y: first.point.y,
-        first: station(first.first),
-        second: station(first.second),
-        count: found.len(),
-    })
+/// The middle of a curve's bounding box, its larger side, and the largest coordinate.
+///
+/// # Errors
+/// When the curve is open or beyond all measure.
+pub(crate) fn measured(spline: &Spline) -> Result<(Point, f64, f64), InflateError> {
+    if !spline.is_closed() {
+        return Err(InflateError::Open);
+    }
+    let turning: f64 = spline.segments().iter().map(|s| s.absolute_turning()).sum();
+    if !(turning <= MOST_TURNING) {
+        return Err(InflateError::TooWinding { turning, limit: MOST_TURNING });
+    }
+    let bounds = spline.bounding_box();
+    let reach = [bounds.x0, bounds.y0, bounds.x1, bounds.y1].iter().fold(0.0_f64, |m, v| m.max(v.abs()));
+    if !(reach <= LARGEST) {
+        return Err(InflateError::TooLarge { limit: LARGEST });
+    }
+    let size = bounds.width().max(bounds.height());
+    if !(size >= LEAST && size > SMALLEST * reach) {
+        return Err(InflateError::TooSmall { size, reach });
+    }
+    Ok((bounds.center(), size, reach))
 }
