@@ -11,8 +11,10 @@ use crate::job::Job;
 pub enum Slot {
     /// The stroke that is being drawn.
     Live,
-    /// What a stroke over a curve would make of it.
+    /// What the stroke that is being drawn over a curve would make of it.
     Preview,
+    /// A curve with a stroke drawn into it.
+    Oversketch(CurveId),
     /// A curve of the drawing.
     Curve(CurveId),
     /// The surface of a curve.
@@ -51,6 +53,14 @@ impl Desk {
         if let Some((_, busy, wanted)) = &mut self.under_way
             && *busy == slot
         {
+            *wanted = false;
+        }
+    }
+
+    /// Wants nothing any more.
+    pub fn clear(&mut self) {
+        self.waiting.clear();
+        if let Some((_, _, wanted)) = &mut self.under_way {
             *wanted = false;
         }
     }

@@ -37,6 +37,15 @@ impl Drawing {
         CurveId(self.named)
     }
 
+    /// A name that no curve has yet: the stem with a number.
+    #[must_use]
+    pub fn free_name(&self, stem: &str) -> String {
+        let stem = stem.trim_end_matches(|c: char| c.is_ascii_digit()).trim_end();
+        let taken = |name: &String| self.curves.iter().any(|curve| curve.name == *name);
+        let mut names = (self.curves.len() + 1..).map(|number| format!("{stem} {number}"));
+        names.find(|name| !taken(name)).unwrap_or_else(|| stem.to_owned())
+    }
+
     /// Puts a curve in front, or in the place of the one that has its identity.
     pub fn put(&mut self, curve: Curve) {
         self.named = self.named.max(curve.id.0);

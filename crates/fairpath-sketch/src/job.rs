@@ -3,7 +3,7 @@
 
 use crate::curve::Pin;
 use crate::neatening::Neatening;
-use fairpath_curve::Spline;
+use fairpath_curve::{Point, Spline};
 use fairpath_fit::{
     EditError, FitError, OversketchError, OversketchOptions, Report, Stroke, TemplateSet, Warning, interpolate_all,
     oversketch,
@@ -37,15 +37,6 @@ pub enum Job {
         /// How.
         options: Box<OversketchOptions>,
     },
-    /// A curve through places.
-    Pass {
-        /// The curve.
-        spline: Spline,
-        /// The places.
-        pins: Vec<Pin>,
-        /// How far the curve may change to both sides of each, along it.
-        reach: f64,
-    },
     /// The surface of a closed curve.
     Inflate {
         /// The curve.
@@ -66,6 +57,8 @@ pub struct Fitted {
     pub warnings: Vec<Warning>,
     /// Which French curves it is made of.
     pub templates: Option<UsedTemplates>,
+    /// For a stroke drawn over a curve, the points to which the new part was fitted; else empty.
+    pub drawn: Vec<Point>,
 }
 
 /// Why a job has no result.
@@ -96,12 +89,10 @@ pub fn run(job: &Job) -> Answer {
         Job::Fit { stroke, neatening, templates, pins } => fitted(stroke, neatening, templates.as_deref(), pins),
         Job::Oversketch { spline, stroke, options } => {
             oversketch(spline, stroke, options).map_err(Trouble::from).map(|done| {
-                Fitted { spline: done.spline, report: done.report, warnings: done.warnings, templates: None }.into()
+                let (report, warnings, drawn) = (done.report, done.warnings, done.integrated);
+                Fitted { spline: done.spline, report, warnings, templates: None, drawn }.into()
             })
         }
-        Job::Pass { spline, pins, reach } => passed(spline, pins, *reach).map_err(Trouble::from).map(|spline| {
-            Fitted { spline, report: Report::default(), warnings: Vec::new(), templates: None }.into()
-        }),
         Job::Inflate { spline, options } => {
             inflate(spline, options).map_err(Trouble::from).map(|inflated| Answer::Surface(inflated.mesh))
         }
@@ -133,7 +124,7 @@ fn fitted(
         .map_err(|error| Trouble { code: "bad-option".into(), text: error.to_string() })?;
     let (fit, templates) = settings.fit(stroke, templates)?;
     let mut fitted =
-        Fitted { spline: fit.spline, report: fit.report, warnings: fit.warnings, templates };
+        Fitted { spline: fit.spline, report: fit.report, warnings: fit.warnings, templates, drawn: Vec::new() };
     if !pins.is_empty() {
         match passed(&fitted.spline, pins, PIN_REACH * neatening.pixel_size) {
             Ok(spline) => fitted.spline = spline,

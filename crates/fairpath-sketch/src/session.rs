@@ -288,7 +288,7 @@ impl Session {
     /// The curve nearest to a point within `reach`, and its nearest place: a station.
     #[must_use]
     pub fn nearest(&self, point: Point, reach: f64) -> Option<(CurveId, f64)> {
-        let within = |curve: &&Arc<Curve>| curve.bounds.inflate(reach, reach).contains(point);
+        let within = |curve: &&Arc<Curve>| curve.spline.bounding_box().inflate(reach, reach).contains(point);
         let candidates = self.drawing().curves().iter().filter(within);
         let measured = candidates.map(|curve| (curve, curve.spline.nearest(point)));
         let near = measured.filter(|(_, nearest)| nearest.distance <= reach);
@@ -353,7 +353,6 @@ impl Session {
             let Some(curve) = drawing.curve(id) else { return };
             let mut curve = (**curve).clone();
             let i = index.filter(|&i| i < curve.pins.len()).unwrap_or(curve.pins.len());
-            curve.pins.truncate(i.max(curve.pins.len()));
             if i == curve.pins.len() { curve.pins.push(pin) } else { curve.pins[i] = pin }
             curve.fitted = false;
             drawing.put(curve);
