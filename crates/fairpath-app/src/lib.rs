@@ -5,12 +5,18 @@
 
 mod app;
 mod canvas;
+mod documents;
 mod example;
+mod files;
 mod icons;
 mod panels;
+mod store;
 mod theme;
 mod view;
 mod worker;
 
 pub use app::App;
+#[cfg(not(target_arch = "wasm32"))]
+pub use store::FileStore;
+pub use store::{NoStore, Store};
 pub use worker::{InlineWorker, Worker};

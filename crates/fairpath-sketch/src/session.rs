@@ -1,6 +1,7 @@
 //! A person at work: deeds and answers of the worker come in, a drawing with its history, jobs for the worker and what is to be shown of the work in hand go
 //! out.
 
+use crate::background::Background;
 use crate::curve::{Curve, CurveId, Pin};
 use crate::desk::{Desk, Slot, Ticket};
 use crate::drawing::Drawing;
@@ -161,6 +162,18 @@ impl Session {
         *self = Self { neatening, desk: std::mem::take(&mut self.desk), ..Self::default() };
         self.desk.clear();
         self.history = History::new(drawing);
+        self.want_unfitted();
+    }
+
+    /// Puts a picture behind the drawing, or takes it away.
+    pub fn set_background(&mut self, background: Option<Arc<Background>>) {
+        self.history.act("Picture", |drawing| drawing.background = background);
+    }
+
+    /// Goes on with a drawing that was kept, from which undo leads back to an empty one.
+    pub fn restore(&mut self, drawing: Drawing) {
+        self.open(Drawing::new(drawing.unit, drawing.y));
+        self.history.act("Restore", |empty| *empty = drawing);
         self.want_unfitted();
     }
 
