@@ -1,8 +1,6 @@
 //! Pictures against rays of light, and against each other.
 
-mod common;
-
-use common::{Ball, offscreen, pixel, ray};
+use crate::common::{Ball, offscreen, pixel, ray};
 use fairpath_render::{Camera, Colour, DVec3, Finish, GpuMesh, Look, Offscreen, Picture, YAxis, Zebra};
 use fairpath_shape::Mesh;
 use std::f64::consts::PI;
@@ -142,7 +140,8 @@ fn what_is_nearer_covers_what_is_farther_in_any_order() {
         pictures.push(offscreen.picture(&mesh, &camera, [120, 120], &look()).unwrap());
         // From behind, the other one is the nearer.
         let behind = offscreen.picture(&mesh, &camera.seen_from(PI, 0.0), [120, 120], &look()).unwrap();
-        assert_eq!(pixel(&behind, 60, 60), pixel(&behind, 88, 60), "only the large one is seen from behind");
+        let [middle, beside] = [pixel(&behind, 60, 60), pixel(&behind, 88, 60)].map(|p| i32::from(p[0]));
+        assert!((middle - beside).abs() < 4, "only the large one is seen from behind: {middle}, {beside}");
     }
     assert_eq!(pictures[0], pictures[1]);
     let (middle, beside) = (pixel(&pictures[0], 60, 60), pixel(&pictures[0], 88, 60));

@@ -1,8 +1,6 @@
 //! What cannot be drawn is refused with a reason, and what was drawn before can be drawn again.
 
-mod common;
-
-use common::{Ball, offscreen};
+use crate::common::{Ball, offscreen};
 use fairpath_render::{Camera, Look, RenderError, YAxis};
 use fairpath_shape::Mesh;
 
