@@ -7,11 +7,12 @@
 use crate::bounds::Bounds;
 use fairpath_curve::trig;
 use glam::{DMat4, DVec3, DVec4};
+use std::f64::consts::FRAC_PI_6;
 
 /// Room around a surface that has been fitted into the picture, as a factor of its distance.
 const AIR: f64 = 1.02;
 /// Where new cameras stand: a little to the left (30 degrees) and above (24 degrees), as in the pictures of `fairpath inflate`.
-const FIRST_AZIMUTH_RAD: f64 = -0.523_598_775_598_298_9;
+const FIRST_AZIMUTH_RAD: f64 = -FRAC_PI_6;
 const FIRST_ELEVATION_RAD: f64 = 0.418_879_020_478_639_1;
 /// Steepest look from above or below, radians (89 degrees): straight down, there would be no telling where up is.
 const STEEPEST_RAD: f64 = 1.553_343_034_274_953_3;
@@ -52,7 +53,7 @@ impl Default for Camera {
 
 impl Camera {
     /// Angle from the lower to the upper edge of the picture, radians (30 degrees): that of a long lens, which distorts little.
-    pub const FIELD_OF_VIEW_RAD: f64 = 0.523_598_775_598_298_9;
+    pub const FIELD_OF_VIEW_RAD: f64 = FRAC_PI_6;
 
     /// The camera in the same direction from its target, but with `bounds` in the middle and whole in the picture, however it is turned afterwards.
     ///
