@@ -165,11 +165,11 @@ fn the_same_picture_has_the_same_bytes_whatever_was_drawn_in_between() {
 fn a_surface_far_from_the_origin_is_drawn_to_the_same_bytes() {
     let mut offscreen = offscreen();
     // On a grid of powers of two, so that moving is exact.
-    let grid = 2_f64.powi(24);
+    let grid = 2_f64.powi(16);
     let mut mesh = BALLS[1].mesh();
     mesh.vertices.iter_mut().flatten().for_each(|x| *x = (*x * grid).round() / grid);
     let mut away = mesh.clone();
-    away.vertices.iter_mut().for_each(|v| *v = [v[0] + 2_f64.powi(26), v[1] - 2_f64.powi(25), v[2] + 2_f64.powi(24)]);
+    away.vertices.iter_mut().for_each(|v| *v = [v[0] + 2_f64.powi(35), v[1] - 2_f64.powi(34), v[2] + 2_f64.powi(35)]);
     let mut draw = |mesh: &Mesh| {
         let mesh = offscreen.upload(&[mesh], YAxis::Up).unwrap();
         let camera = Camera::default().fitted_to(&mesh.bounds(), 1.0).orbited(0.3, -0.2).zoomed(1.2);
@@ -259,4 +259,30 @@ fn an_eye_inside_sees_the_inside() {
     assert!(camera.distance() < mesh.bounds().radius);
     let picture = offscreen.picture(&mesh, &camera, [60, 60], &look()).unwrap();
     assert!(picture.rgba.chunks_exact(4).all(|p| p[..3] != GREEN));
+}
+
+#[test]
+fn the_back_of_a_sheet_is_lit_as_if_it_were_the_front() {
+    let mut offscreen = offscreen();
+    let sheet = square(0.0, 1.0, [0.6, 0.0, 0.8]);
+    let mut other = square(0.0, 1.0, [-0.6, 0.0, -0.8]);
+    other.triangles.iter_mut().for_each(|t| t.reverse());
+    let mut behind = |mesh: &Mesh| {
+        let mesh = offscreen.upload(&[mesh], YAxis::Up).unwrap();
+        let camera = Camera::default().fitted_to(&mesh.bounds(), 1.0).seen_from(PI, 0.0);
+        offscreen.picture(&mesh, &camera, [64, 64], &look()).unwrap()
+    };
+    assert!(behind(&sheet) == behind(&other));
+}
+
+#[test]
+fn a_normal_that_points_away_counts_as_one_at_the_silhouette() {
+    let mut offscreen = offscreen();
+    let mut middle = |normal: [f64; 3]| {
+        let mesh = offscreen.upload(&[&square(0.0, 1.0, normal)], YAxis::Up).unwrap();
+        let camera = Camera::default().fitted_to(&mesh.bounds(), 1.0).seen_from(0.0, 0.0);
+        // An odd size, so that a pixel has the middle of the square in its middle, where the eye is straight above.
+        pixel(&offscreen.picture(&mesh, &camera, [63, 63], &look()).unwrap(), 31, 31)
+    };
+    assert_eq!(middle([0.6, 0.0, -0.8]), middle([1.0, 0.0, 0.0]));
 }
