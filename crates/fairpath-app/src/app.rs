@@ -1,0 +1,189 @@
+//! The application: what it holds, and the order in which a frame goes.
+
+use crate::canvas::Canvas;
+use crate::panels::{self, Panels};
+use crate::view::View;
+use crate::worker::Worker;
+use crate::{example, theme};
+use eframe::egui::{self, CentralPanel, Context, Frame, Ui};
+use fairpath_curve::Point;
+use fairpath_sketch::{Answer, Curve, CurveId, Drawing, Neatening, Session};
+
+/// What a press on the canvas does.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) enum Tool {
+    /// Draws a stroke; near a curve, over it.
+    #[default]
+    Draw,
+    /// Selects, moves and lengthens.
+    Select,
+    /// Holds a curve through points.
+    Pull,
+    /// Cuts a curve.
+    Cut,
+    /// Makes corners and smooths them.
+    Corner,
+}
+
+/// In which colours curves are drawn.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) enum Ink {
+    /// Lines red, arcs green, clothoids blue.
+    #[default]
+    Kinds,
+    /// All alike.
+    Plain,
+}
+
+/// What is shown of the drawing.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Shown {
+    pub(crate) ink: Ink,
+    /// The strokes as they were drawn.
+    pub(crate) ghost: bool,
+    pub(crate) grid: bool,
+    pub(crate) comb: bool,
+    /// Length of a comb's tooth on the screen for a curvature of 1 per point, points squared.
+    pub(crate) comb_scale: f64,
+    /// The curvature along the selected curve, under the canvas.
+    pub(crate) plot: bool,
+    /// The figures of the selected curve, beside the canvas.
+    pub(crate) inspector: bool,
+    /// Parts of French curves are laid while a stroke is drawn.
+    pub(crate) greedy: bool,
+}
+
+impl Default for Shown {
+    fn default() -> Self {
+        Self {
+            ink: Ink::Kinds,
+            ghost: true,
+            grid: true,
+            comb: false,
+            comb_scale: 1500.0,
+            plot: false,
+            inspector: true,
+            greedy: false,
+        }
+    }
+}
+
+/// The application.
+pub struct App {
+    pub(crate) session: Session,
+    worker: Box<dyn Worker>,
+    pub(crate) view: View,
+    pub(crate) canvas: Canvas,
+    pub(crate) tool: Tool,
+    pub(crate) shown: Shown,
+    pub(crate) panels: Panels,
+    /// All is to be shown as soon as the canvas has its size.
+    fit_view: bool,
+}
+
+impl App {
+    /// The application with a worker of the caller's, on the drawing of a first start.
+    #[must_use]
+    pub fn new(ctx: &Context, worker: Box<dyn Worker>) -> Self {
+        theme::install(ctx);
+        let mut app = Self {
+            session: Session::new(first_drawing()),
+            worker,
+            view: View::default(),
+            canvas: Canvas::default(),
+            tool: Tool::default(),
+            shown: Shown::default(),
+            panels: Panels::default(),
+            fit_view: true,
+        };
+        app.panels.hint = true;
+        app
+    }
+
+    /// The application with a thread that fits.
+    ///
+    /// # Panics
+    /// When the system gives no thread.
+    #[cfg(not(target_arch = "wasm32"))]
+    #[must_use]
+    pub fn on_desktop(ctx: &Context) -> Self {
+        let worker = crate::worker::ThreadWorker::start(ctx.clone()).expect("the system gives a thread");
+        Self::new(ctx, Box::new(worker))
+    }
+
+    /// The work on the drawing.
+    #[must_use]
+    pub fn session(&self) -> &Session {
+        &self.session
+    }
+
+    /// The work on the drawing, to change it.
+    pub fn session_mut(&mut self) -> &mut Session {
+        &mut self.session
+    }
+
+    /// Whether every curve that was asked for is there.
+    #[must_use]
+    pub fn is_settled(&self) -> bool {
+        self.session.is_settled()
+    }
+
+    /// Shows all of the drawing.
+    pub(crate) fn fit_view(&mut self) {
+        let boxes = self.session.drawing().curves().iter().map(|curve| curve.spline.bounding_box());
+        if let Some(all) = boxes.reduce(|a, b| a.union(b)) {
+            self.view.fit(Point::new(all.x0, all.y0), Point::new(all.x1, all.y1));
+        }
+    }
+
+    fn take_answers(&mut self) {
+        for (ticket, answer) in self.worker.answers() {
+            self.session.take_answer(ticket, answer);
+        }
+        while let Some((ticket, job)) = self.session.next_job() {
+            self.worker.submit(ticket, job);
+            let answers: Vec<(_, Answer)> = self.worker.answers();
+            if answers.is_empty() {
+                break;
+            }
+            // A worker that answers at once is asked again.
+            answers.into_iter().for_each(|(ticket, answer)| self.session.take_answer(ticket, answer));
+        }
+    }
+}
+
+impl eframe::App for App {
+    fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {
+        self.take_answers();
+        panels::shortcuts::read(self, ui);
+        panels::plot::show(self, ui);
+        CentralPanel::default().frame(Frame::NONE).show(ui, |ui| {
+            self.canvas.show(ui, &mut self.session, &mut self.view, self.tool, &self.shown);
+            if std::mem::take(&mut self.fit_view) {
+                self.fit_view();
+                ui.ctx().request_repaint();
+            }
+            panels::show(self, ui);
+        });
+        if let Some(trouble) = self.session.take_trouble() {
+            self.panels.say(trouble.text);
+        }
+        self.take_answers();
+    }
+
+    fn clear_color(&self, visuals: &egui::Visuals) -> [f32; 4] {
+        visuals.panel_fill.to_normalized_gamma_f32()
+    }
+}
+
+/// The drawing of a first start.
+fn first_drawing() -> Drawing {
+    let file = example::strokes();
+    let mut drawing = Drawing { unit: file.unit, y: file.y, ..Drawing::default() };
+    for (i, stroke) in file.strokes.into_iter().enumerate() {
+        if let Ok(curve) = Curve::drawn(CurveId(i as u64 + 1), stroke, Neatening::default()) {
+            drawing.put(curve);
+        }
+    }
+    drawing
+}
