@@ -179,7 +179,7 @@ impl eframe::App for App {
 /// The drawing of a first start.
 fn first_drawing() -> Drawing {
     let file = example::strokes();
-    let mut drawing = Drawing { unit: file.unit, y: file.y, ..Drawing::default() };
+    let mut drawing = Drawing::new(file.unit, file.y);
     for (i, stroke) in file.strokes.into_iter().enumerate() {
         if let Ok(curve) = Curve::drawn(CurveId(i as u64 + 1), stroke, Neatening::default()) {
             drawing.put(curve);

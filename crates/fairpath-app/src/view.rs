@@ -1,6 +1,6 @@
 //! Which part of the drawing is seen: places of the drawing come in, places on the screen go out, and back.
 
-use eframe::egui::{Pos2, Rect, Vec2, pos2};
+use eframe::egui::{Pos2, Rect, Vec2};
 use fairpath_curve::Point;
 
 /// The nearest and farthest that can be gone: points of the screen to a unit of the drawing.
@@ -90,10 +90,5 @@ impl View {
     /// The part of the drawing that is seen, as two corners.
     pub(crate) fn seen(&self) -> [Point; 2] {
         [self.to_drawing(self.canvas.min), self.to_drawing(self.canvas.max)]
-    }
-
-    /// Where a place of the screen would be had the canvas its corner at the origin.
-    pub(crate) fn snapped(pos: Pos2, pixels_per_point: f32) -> Pos2 {
-        pos2((pos.x * pixels_per_point).round() / pixels_per_point, (pos.y * pixels_per_point).round() / pixels_per_point)
     }
 }

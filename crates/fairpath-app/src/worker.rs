@@ -1,8 +1,6 @@
 //! Who does the jobs: a thread on the desktop, a worker of the browser on the page, the caller itself in tests.
 
-use fairpath_sketch::{Answer, Job, Ticket};
-#[cfg(not(target_arch = "wasm32"))]
-use fairpath_sketch::run;
+use fairpath_sketch::{Answer, Job, Ticket, run};
 
 /// Someone who does one job at a time, away from the interface.
 pub trait Worker {
@@ -21,7 +19,7 @@ pub struct InlineWorker {
 
 impl Worker for InlineWorker {
     fn submit(&mut self, ticket: Ticket, job: Job) {
-        self.answers.push((ticket, fairpath_sketch::run(&job)));
+        self.answers.push((ticket, run(&job)));
     }
 
     fn answers(&mut self) -> Vec<(Ticket, Answer)> {

@@ -1,5 +1,6 @@
 //! A drawing: curves in their order, from the back to the front.
 
+use crate::background::Background;
 use crate::curve::{Curve, CurveId};
 use fairpath_fit::TemplateSet;
 use fairpath_io::{Unit, YAxis};
@@ -15,10 +16,18 @@ pub struct Drawing {
     curves: Vec<Arc<Curve>>,
     /// Sets of French curves of this drawing's own.
     pub template_sets: Vec<Arc<TemplateSet>>,
+    /// A picture to trace over.
+    pub background: Option<Arc<Background>>,
     named: u64,
 }
 
 impl Drawing {
+    /// An empty drawing in that unit.
+    #[must_use]
+    pub fn new(unit: Unit, y: YAxis) -> Self {
+        Self { unit, y, ..Self::default() }
+    }
+
     /// The curves, from the back to the front.
     #[must_use]
     pub fn curves(&self) -> &[Arc<Curve>] {

@@ -200,7 +200,8 @@ impl Session {
         }
         match if fresh { None } else { self.over(&hand) } {
             Some(Over { id, .. }) => {
-                if let Some(options) = self.drawing().curve(id).map(|curve| oversketch_options(curve, hand.pixel_size)) {
+                if let Some(options) = self.drawing().curve(id).map(|curve| oversketch_options(curve, hand.pixel_size))
+                {
                     self.want_oversketch(id, hand.stroke, options);
                 }
             }

@@ -119,9 +119,8 @@ fn fitted(
     templates: Option<&TemplateSet>,
     pins: &[Pin],
 ) -> Result<Answer, Trouble> {
-    let settings = neatening
-        .settings()
-        .map_err(|error| Trouble { code: "bad-option".into(), text: error.to_string() })?;
+    let settings =
+        neatening.settings().map_err(|error| Trouble { code: "bad-option".into(), text: error.to_string() })?;
     let (fit, templates) = settings.fit(stroke, templates)?;
     let mut fitted =
         Fitted { spline: fit.spline, report: fit.report, warnings: fit.warnings, templates, drawn: Vec::new() };

@@ -145,8 +145,7 @@ fn raw(stroke: &Stroke) -> Result<Fit, FitError> {
         }
     }
     let joins = vec![Continuity::G0; segments.len().saturating_sub(1)];
-    let spline =
-        Spline::new(segments, joins, false).map_err(|_| FitError::TooShort { points, extent: 0.0 })?;
+    let spline = Spline::new(segments, joins, false).map_err(|_| FitError::TooShort { points, extent: 0.0 })?;
     let report = Report { points, pieces: spline.segments().len(), ..Report::default() };
     Ok(Fit { spline, report, warnings: Vec::new() })
 }

@@ -55,6 +55,12 @@ pub struct SettingError {
 }
 
 impl Neatening {
+    /// The name that files have for how the curve came about.
+    #[must_use]
+    pub fn method_name(&self) -> &'static str {
+        if self.fairness <= 0.0 { "raw" } else { self.method.name() }
+    }
+
     /// The method with all of its options.
     ///
     /// # Errors

@@ -353,7 +353,11 @@ impl Session {
             let Some(curve) = drawing.curve(id) else { return };
             let mut curve = (**curve).clone();
             let i = index.filter(|&i| i < curve.pins.len()).unwrap_or(curve.pins.len());
-            if i == curve.pins.len() { curve.pins.push(pin) } else { curve.pins[i] = pin }
+            if i == curve.pins.len() {
+                curve.pins.push(pin)
+            } else {
+                curve.pins[i] = pin
+            }
             curve.fitted = false;
             drawing.put(curve);
             at = Some(i);

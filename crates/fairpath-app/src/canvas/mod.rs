@@ -10,7 +10,7 @@ pub(crate) use hands::GRASP;
 use crate::app::{Shown, Tool};
 use crate::theme::Palette;
 use crate::view::View;
-use eframe::egui::{self, CursorIcon, Rect, Sense, Ui, WidgetInfo, WidgetType};
+use eframe::egui::{self, CursorIcon, Rect, Role, Sense, Ui, WidgetInfo};
 use fairpath_sketch::{CurveId, Session};
 use hands::Hands;
 use paint::Brush;
@@ -35,8 +35,8 @@ impl Canvas {
     pub(crate) fn show(&mut self, ui: &mut Ui, session: &mut Session, view: &mut View, tool: Tool, shown: &Shown) {
         let rect = ui.max_rect();
         view.on(rect);
-        let response = ui.interact(rect, ui.id().with("canvas"), Sense::click_and_drag());
-        response.widget_info(|| WidgetInfo::labeled(WidgetType::Other, true, "Canvas"));
+        let response = ui.interact(rect, ui.scope_id().with("canvas"), Sense::click_and_drag());
+        response.widget_info(|| WidgetInfo::labeled(Role::Canvas, true, "Canvas"));
         self.hands.read(ui, &response, session, view, tool, shown);
         if response.contains_pointer() {
             ui.ctx().set_cursor_icon(self.cursor(ui, tool));

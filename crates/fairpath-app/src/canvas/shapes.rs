@@ -1,8 +1,8 @@
 //! Curves as polylines for the screen, kept as long as curve and nearness are the same: a session of hundreds of curves flattens only what changed.
 
-use eframe::egui::ahash::HashMap;
 use fairpath_curve::{Kind, Point, Spline};
 use fairpath_sketch::{Curve, CurveId};
+use std::collections::HashMap;
 use std::sync::Arc;
 
 /// Largest distance of a polyline from its curve, points of the screen.

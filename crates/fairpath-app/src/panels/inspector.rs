@@ -64,7 +64,8 @@ fn segments(ui: &mut Ui, spline: &Spline) {
                     Kind::Arc => "arc",
                     Kind::Clothoid => "cloth.",
                 };
-                let radius = |kappa: f64| if kappa == 0.0 { "∞".to_owned() } else { format!("{:.0}", 1.0 / kappa.abs()) };
+                let radius =
+                    |kappa: f64| if kappa == 0.0 { "∞".to_owned() } else { format!("{:.0}", 1.0 / kappa.abs()) };
                 ui.label(kind);
                 ui.label(format!("{:.0}, {:.0}", segment.start.x, segment.start.y));
                 ui.label(format!("{:.1}", segment.length));

@@ -45,7 +45,7 @@ pub(crate) fn show(app: &mut App, ui: &mut Ui) {
 /// Something that floats over the canvas, held at a corner or a side of it.
 fn float<R>(ui: &Ui, name: &str, at: Align2, offset: Vec2, add: impl FnOnce(&mut Ui) -> R) -> InnerResponse<R> {
     let canvas = ui.max_rect();
-    Area::new(Id::new(name))
+    Area::new(Id::unique(name))
         .pivot(at)
         .fixed_pos(at.pos_in_rect(&canvas) + offset)
         .constrain_to(canvas)

@@ -41,11 +41,14 @@ pub(crate) fn show(app: &mut App, ui: &Ui) {
                 }
             });
             if wish.method == Method::ShortestPath {
-                ComboBox::from_id_salt("preset").width(150.0).selected_text(preset_title(wish.preset)).show_ui(ui, |ui| {
-                    for preset in Preset::ALL {
-                        ui.selectable_value(&mut wish.preset, preset, preset_title(preset));
-                    }
-                });
+                ComboBox::from_id_salt("preset").width(150.0).selected_text(preset_title(wish.preset)).show_ui(
+                    ui,
+                    |ui| {
+                        for preset in Preset::ALL {
+                            ui.selectable_value(&mut wish.preset, preset, preset_title(preset));
+                        }
+                    },
+                );
             }
             ui.separator();
             ui.weak("raw");

@@ -42,7 +42,11 @@ pub(crate) fn show(app: &mut App, ui: &mut Ui) {
             .y_axis_label("curvature");
         let shown = plot.show(ui, |plot| {
             plot.hline(HLine::new("zero", 0.0).color(palette.grid_strong));
-            plot.line(Line::new(curve.name.as_str(), PlotPoints::from(profile(&curve.spline))).color(palette.comb_hull).width(1.75));
+            plot.line(
+                Line::new(curve.name.as_str(), PlotPoints::from(profile(&curve.spline)))
+                    .color(palette.comb_hull)
+                    .width(1.75),
+            );
             if let Some(station) = marked {
                 plot.vline(VLine::new("here", station).color(palette.accent));
             }

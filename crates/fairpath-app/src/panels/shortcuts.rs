@@ -73,9 +73,12 @@ pub(crate) fn read(app: &mut App, ui: &Ui) {
 /// Shows the list.
 pub(crate) fn show(app: &mut App, ui: &Ui) {
     let mut open = app.panels.shortcuts;
-    Window::new("Shortcuts").open(&mut open).anchor(Align2::CENTER_CENTER, [0.0, 0.0]).resizable(false).collapsible(false).show(
-        ui.ctx(),
-        |ui| {
+    Window::new("Shortcuts")
+        .open(&mut open)
+        .anchor(Align2::CENTER_CENTER, [0.0, 0.0])
+        .resizable(false)
+        .collapsible(false)
+        .show(ui.ctx(), |ui| {
             Grid::new("shortcuts").num_columns(2).spacing([28.0, 4.0]).show(ui, |ui| {
                 let keys = TABLE.iter().map(|&(modifiers, key, name, _)| {
                     (ui.ctx().format_shortcut(&KeyboardShortcut::new(modifiers, key)), name)
@@ -88,8 +91,7 @@ pub(crate) fn show(app: &mut App, ui: &Ui) {
                     ui.end_row();
                 }
             });
-        },
-    );
+        });
     app.panels.shortcuts = open;
 }
 

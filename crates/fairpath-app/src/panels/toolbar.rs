@@ -28,11 +28,15 @@ pub(crate) fn show(app: &mut App, ui: &Ui) {
     float(ui, "history", Align2::LEFT_TOP, vec2(MARGIN, MARGIN), |ui| {
         ui.horizontal(|ui| {
             let undo = app.session.history().undoable().map(|deed| format!("Undo {}", deed.to_lowercase()));
-            if icon_button(ui, Icon::Undo2, undo.as_deref().unwrap_or("Undo"), "Ctrl+Z", false, undo.is_some()).clicked() {
+            if icon_button(ui, Icon::Undo2, undo.as_deref().unwrap_or("Undo"), "Ctrl+Z", false, undo.is_some())
+                .clicked()
+            {
                 app.session.undo();
             }
             let redo = app.session.history().redoable().map(|deed| format!("Redo {}", deed.to_lowercase()));
-            if icon_button(ui, Icon::Redo2, redo.as_deref().unwrap_or("Redo"), "Ctrl+Shift+Z", false, redo.is_some()).clicked() {
+            if icon_button(ui, Icon::Redo2, redo.as_deref().unwrap_or("Redo"), "Ctrl+Shift+Z", false, redo.is_some())
+                .clicked()
+            {
                 app.session.redo();
             }
         });
