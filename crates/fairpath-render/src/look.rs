@@ -45,7 +45,7 @@ pub enum Finish {
 pub struct Zebra {
     /// Number of pairs of a dark and a light stripe from one end of the tunnel to the other: 180 degrees of reflected rays.
     pub pairs: u16,
-    /// Direction of the tunnel's axis on the picture, radians counterclockwise from upright. Upright hoops lie across, so the stripes do, too.
+    /// Direction of the tunnel's axis on the picture, radians counterclockwise from upright. With 0 the hoops, and so the stripes, lie across.
     pub axis_rad: f64,
 }
 
