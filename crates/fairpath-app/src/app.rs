@@ -52,6 +52,8 @@ pub(crate) struct Shown {
     pub(crate) plot: bool,
     /// The figures of the selected curve, beside the canvas.
     pub(crate) inspector: bool,
+    /// The French curves that the selected curve is made of.
+    pub(crate) templates: bool,
     /// Parts of French curves are laid while a stroke is drawn.
     pub(crate) greedy: bool,
 }
@@ -66,6 +68,7 @@ impl Default for Shown {
             comb_scale: 1500.0,
             plot: false,
             inspector: true,
+            templates: true,
             greedy: false,
         }
     }

@@ -5,6 +5,7 @@ mod grid;
 mod hands;
 mod paint;
 mod shapes;
+mod templates;
 
 pub(crate) use hands::GRASP;
 
