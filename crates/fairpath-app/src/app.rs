@@ -3,6 +3,7 @@
 use crate::canvas::Canvas;
 use crate::documents::Document;
 use crate::files::Files;
+use crate::pace::{Pace, PaceReport};
 use crate::panels::{self, Panels};
 use crate::store::Store;
 use crate::view::View;
@@ -83,6 +84,9 @@ pub struct App {
     pub(crate) tool: Tool,
     pub(crate) shown: Shown,
     pub(crate) panels: Panels,
+    pace: Pace,
+    /// The curve whose stroke ended in this frame.
+    drawn: Option<CurveId>,
     pub(crate) document: Document,
     pub(crate) files: Files,
     pub(crate) store: Box<dyn Store>,
@@ -104,6 +108,8 @@ impl App {
             tool: Tool::default(),
             shown: Shown::default(),
             panels: Panels::default(),
+            pace: Pace::default(),
+            drawn: None,
             document: Document::default(),
             files: Files::default(),
             store,
@@ -120,12 +126,84 @@ impl App {
     #[cfg(not(target_arch = "wasm32"))]
     #[must_use]
     pub fn on_desktop(ctx: &Context) -> Self {
-        let worker = crate::worker::ThreadWorker::start(ctx.clone()).expect("the system gives a thread");
         let store: Box<dyn Store> = match crate::store::FileStore::of_user() {
             Some(store) => Box::new(store),
             None => Box::new(crate::store::NoStore),
         };
+        Self::with_thread(ctx, store)
+    }
+
+    /// The application with a thread that fits, and a store of the caller's.
+    ///
+    /// # Panics
+    /// When the system gives no thread.
+    #[cfg(not(target_arch = "wasm32"))]
+    #[must_use]
+    pub fn with_thread(ctx: &Context, store: Box<dyn Store>) -> Self {
+        let worker = crate::worker::ThreadWorker::start(ctx.clone()).expect("the system gives a thread");
         Self::new(ctx, Box::new(worker), store)
+    }
+
+    /// How fast it was so far.
+    #[must_use]
+    pub fn pace(&self) -> PaceReport {
+        self.pace.report()
+    }
+
+    /// Begins to time anew.
+    pub fn forget_pace(&mut self) {
+        self.pace = Pace::default();
+    }
+
+    /// Everything about the drawing and the work on it as JSON, for programs that drive the application: the members `settled`, `unsaved`, `pace` and
+    /// `drawing`, which is a file of it.
+    #[must_use]
+    pub fn state_json(&self) -> String {
+        let drawing = fairpath_sketch::encode_drawing(self.session.drawing()).unwrap_or_default();
+        let drawing: serde_json::Value = serde_json::from_slice(&drawing).unwrap_or_default();
+        serde_json::json!({
+            "settled": self.is_settled(),
+            "unsaved": self.is_unsaved(),
+            "pace": self.pace(),
+            "drawing": drawing,
+        })
+        .to_string()
+    }
+
+    /// Makes a picture without a window, up to the triangles that a graphics device would be given.
+    pub fn frame_without_window(&mut self, ctx: &Context, input: egui::RawInput) {
+        let output = ctx.run_ui(input, |ui| self.frame(ui));
+        let triangles = ctx.tessellate(output.shapes, output.pixels_per_point);
+        self.end_frame();
+        drop(triangles);
+    }
+
+    fn frame(&mut self, ui: &mut Ui) {
+        let before = self.session.drawing().curves().len();
+        self.pace.begin(self.session.hand().is_some());
+        self.take_answers();
+        self.read_files(ui.ctx());
+        self.keep(ui.ctx());
+        panels::shortcuts::read(self, ui);
+        panels::plot::show(self, ui);
+        CentralPanel::default().frame(Frame::NONE).show(ui, |ui| {
+            self.canvas.show(ui, &mut self.session, &mut self.view, self.tool, &self.shown);
+            if std::mem::take(&mut self.fit_view) {
+                self.fit_view();
+                ui.ctx().request_repaint();
+            }
+            panels::show(self, ui);
+        });
+        if let Some(trouble) = self.session.take_trouble() {
+            self.panels.say(trouble.text);
+        }
+        self.take_answers();
+        let curves = self.session.drawing().curves();
+        self.drawn = if curves.len() == before + 1 { curves.last().map(|curve| curve.id) } else { None };
+    }
+
+    fn end_frame(&mut self) {
+        self.pace.end(self.drawn.take(), self.session.drawing());
     }
 
     /// The work on the drawing.
@@ -171,23 +249,8 @@ impl App {
 
 impl eframe::App for App {
     fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {
-        self.take_answers();
-        self.read_files(ui.ctx());
-        self.keep(ui.ctx());
-        panels::shortcuts::read(self, ui);
-        panels::plot::show(self, ui);
-        CentralPanel::default().frame(Frame::NONE).show(ui, |ui| {
-            self.canvas.show(ui, &mut self.session, &mut self.view, self.tool, &self.shown);
-            if std::mem::take(&mut self.fit_view) {
-                self.fit_view();
-                ui.ctx().request_repaint();
-            }
-            panels::show(self, ui);
-        });
-        if let Some(trouble) = self.session.take_trouble() {
-            self.panels.say(trouble.text);
-        }
-        self.take_answers();
+        self.frame(ui);
+        self.end_frame();
     }
 
     fn clear_color(&self, visuals: &egui::Visuals) -> [f32; 4] {

@@ -87,12 +87,14 @@ impl App {
             Purpose::Open if is_drawing(bytes) => decode_drawing(bytes, name).map_err(told).map(|drawing| {
                 self.open(drawing, name);
             }),
-            Purpose::Open | Purpose::Import => import(bytes, name, self.session.neatening()).map_err(told).map(|curves| {
-                let count = curves.len();
-                self.session.add("Import", curves);
-                self.fit_view();
-                self.panels.say(format!("{count} curves from {name}."));
-            }),
+            Purpose::Open | Purpose::Import => {
+                import(bytes, name, self.session.neatening()).map_err(told).map(|curves| {
+                    let count = curves.len();
+                    self.session.add("Import", curves);
+                    self.fit_view();
+                    self.panels.say(format!("{count} curves from {name}."));
+                })
+            }
         };
         if let Err(text) = taken {
             self.panels.say(text);
@@ -108,15 +110,16 @@ impl App {
 
     fn trace(&mut self, name: &str, bytes: &[u8]) -> Result<(), String> {
         let size = image::ImageReader::new(std::io::Cursor::new(bytes)).with_guessed_format();
-        let size = size.map_err(|error| error.to_string()).and_then(|reader| reader.into_dimensions().map_err(|error| error.to_string()));
+        let size = size
+            .map_err(|error| error.to_string())
+            .and_then(|reader| reader.into_dimensions().map_err(|error| error.to_string()));
         let (width, height) = size.map_err(|error| format!("{name}: cannot be shown: {error}"))?;
         let [min, max] = self.view.seen();
         let room = (max - min) * 0.8;
         let scale = (room.x / f64::from(width)).min(room.y / f64::from(height));
         let half = fairpath_curve::Vec2::new(f64::from(width), f64::from(height)) * (0.5 * scale);
         let at = min.midpoint(max) - half;
-        let background =
-            Background { name: name.into(), image: bytes.to_vec(), at, width: 2.0 * half.x, opacity: 0.5 };
+        let background = Background { name: name.into(), image: bytes.to_vec(), at, width: 2.0 * half.x, opacity: 0.5 };
         self.session.set_background(Some(Arc::new(background)));
         Ok(())
     }
@@ -147,7 +150,12 @@ impl App {
     /// The selected curves, or if there are none all, in a format.
     pub(crate) fn exported(&self, format: SplineFormat) -> Result<(Vec<u8>, Vec<Warning>), String> {
         let mut file = splines_of(self.session.drawing());
-        let selected: Vec<&str> = self.session.selection().iter().filter_map(|&id| Some(self.session.drawing().curve(id)?.name.as_str())).collect();
+        let selected: Vec<&str> = self
+            .session
+            .selection()
+            .iter()
+            .filter_map(|&id| Some(self.session.drawing().curve(id)?.name.as_str()))
+            .collect();
         if !selected.is_empty() {
             file.splines.retain(|entry| selected.contains(&entry.name.as_str()));
         }

@@ -62,7 +62,11 @@ impl Files {
     pub(crate) fn choose(&self, ctx: &Context, purpose: Purpose) {
         let (title, filter, extensions): (_, _, &[&str]) = match purpose {
             Purpose::Open => ("Open a drawing", "Drawings", &["json", "svg", "csv", "txt", "inkml", "gpx", "geojson"]),
-            Purpose::Import => ("Import strokes or curves", "Strokes and curves", &["json", "svg", "csv", "txt", "inkml", "gpx", "geojson"]),
+            Purpose::Import => (
+                "Import strokes or curves",
+                "Strokes and curves",
+                &["json", "svg", "csv", "txt", "inkml", "gpx", "geojson"],
+            ),
             Purpose::Background => ("Trace over a picture", "Pictures", &["png", "jpg", "jpeg", "webp"]),
         };
         let dialog = rfd::AsyncFileDialog::new().set_title(title).add_filter(filter, extensions).pick_file();

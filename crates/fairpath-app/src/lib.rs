@@ -9,6 +9,7 @@ mod documents;
 mod example;
 mod files;
 mod icons;
+mod pace;
 mod panels;
 mod store;
 mod theme;
@@ -16,6 +17,7 @@ mod view;
 mod worker;
 
 pub use app::App;
+pub use pace::{PaceReport, Times};
 #[cfg(not(target_arch = "wasm32"))]
 pub use store::FileStore;
 pub use store::{NoStore, Store};

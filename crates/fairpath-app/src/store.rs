@@ -75,7 +75,8 @@ impl Store for FileStore {
             }
             let write = |bytes: Vec<u8>| {
                 let folder = path.parent().unwrap_or(&path);
-                std::fs::create_dir_all(folder).map_err(|error| format!("{}: cannot be made: {error}", folder.display()))?;
+                std::fs::create_dir_all(folder)
+                    .map_err(|error| format!("{}: cannot be made: {error}", folder.display()))?;
                 fairpath_io::write_whole(&path, &bytes).map_err(|error| error.to_string())
             };
             if let Err(text) = text().and_then(write) {

@@ -2,9 +2,9 @@
 
 use crate::background::Background;
 use crate::curve::{Curve, CurveId};
-use fairpath_fit::TemplateSet;
 use crate::method::Method;
 use crate::neatening::Neatening;
+use fairpath_fit::TemplateSet;
 use fairpath_io::{SHIPPED_TEMPLATES, Unit, YAxis, shipped_templates};
 use std::sync::{Arc, OnceLock};
 

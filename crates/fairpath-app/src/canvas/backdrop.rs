@@ -17,14 +17,21 @@ pub(crate) struct Backdrop {
 
 impl Backdrop {
     /// Paints the picture.
-    pub(crate) fn paint(&mut self, ctx: &Context, painter: &Painter, view: &View, background: Option<&Arc<Background>>) {
+    pub(crate) fn paint(
+        &mut self,
+        ctx: &Context,
+        painter: &Painter,
+        view: &View,
+        background: Option<&Arc<Background>>,
+    ) {
         let Some(background) = background else {
             self.shown = None;
             return;
         };
         let known = self.shown.as_ref().is_some_and(|(shown, _)| shown.image == background.image);
         if !known {
-            let texture = decoded(&background.image).map(|image| ctx.load_texture("picture", image, TextureOptions::LINEAR));
+            let texture =
+                decoded(&background.image).map(|image| ctx.load_texture("picture", image, TextureOptions::LINEAR));
             self.shown = Some((Arc::clone(background), texture));
         }
         let Some((_, Some(texture))) = &self.shown else { return };

@@ -14,7 +14,9 @@ impl Brush<'_> {
         let Some(used) = &curve.templates else { return };
         let Some(set) = drawing.template_set(&used.set) else { return };
         for (i, piece) in used.pieces.iter().enumerate() {
-            let Some(template) = set.templates().iter().find(|template| template.name() == piece.template) else { continue };
+            let Some(template) = set.templates().iter().find(|template| template.name() == piece.template) else {
+                continue;
+            };
             let laid = template.spline().transformed(&piece.transform);
             let colour = self.palette.templates[i % self.palette.templates.len()];
             self.shape(&Shape::new(&laid, self.view.zoom()), |_| Stroke::new(1.0, colour));

@@ -19,7 +19,8 @@ const FORMATS: [(SplineFormat, &str); 5] = [
 pub(crate) fn show(app: &mut App, ui: &mut Ui) {
     let ctx = ui.ctx().clone();
     let menu = ui.menu_button(icon(Icon::Menu, 17.0), |ui| {
-        let item = |ui: &mut Ui, name: &str, shortcut: &str| ui.add(Button::new(name).shortcut_text(shortcut)).clicked();
+        let item =
+            |ui: &mut Ui, name: &str, shortcut: &str| ui.add(Button::new(name).shortcut_text(shortcut)).clicked();
         if item(ui, "New", "") {
             app.clear();
         }
