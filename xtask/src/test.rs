@@ -4,7 +4,7 @@ use anyhow::{Result, bail};
 
 use crate::process::{cargo, run as run_command};
 use crate::steps::{Outcome, Steps};
-use crate::{evaluate, generate, judges, layers, process, rectilinear, tools, tree};
+use crate::{evaluate, generate, judge_web, judges, layers, process, rectilinear, tools, tree};
 
 /// Runs everything that can tell whether the project is sound.
 pub(crate) fn run() -> Result<()> {
@@ -43,9 +43,7 @@ pub(crate) fn judge() -> Result<()> {
 }
 
 fn add_judges(steps: &mut Steps) {
-    steps.step("release build", || {
-        command(&["build", "--release", "--package", "fairpath"], "the command line is built")
-    });
+    steps.step("release build", release_build);
     steps.step("judges' tools", || {
         tools::python().map(|python| Outcome::Passed(format!("{} is ready", python.display())))
     });
@@ -54,6 +52,19 @@ fn add_judges(steps: &mut Steps) {
     steps.step("judge: SVG", judges::svg);
     steps.step("judge: glTF", judges::gltf);
     steps.step("judge: page", judges::page);
+    steps.step("judge: web", judge_web::step);
+}
+
+/// The page of the application alone.
+pub(crate) fn judge_web() -> Result<()> {
+    let mut steps = Steps::default();
+    steps.step("release build", release_build);
+    steps.step("judge: web", judge_web::step);
+    steps.finish()
+}
+
+fn release_build() -> Result<Outcome> {
+    command(&["build", "--release", "--package", "fairpath"], "the command line is built")
 }
 
 fn command(args: &[&str], note: &str) -> Result<Outcome> {

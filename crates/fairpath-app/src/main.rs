@@ -1,0 +1,2 @@
+//! The desktop's program.
+fn main() {}

@@ -1,0 +1,242 @@
+// Drives the page in a browser: node drive.mjs TASK.json, in a folder where the package playwright-core is installed. The task says
+// {url, brokenUrl, browser, strokes, out}; `strokes` is a list of lists of points. What was seen is written to OUT/seen.json, with the
+// recorded strokes, the saved drawing and pictures beside it. Ends with 1 at the first thing that is not as it must be.
+import { readFileSync, writeFileSync } from "node:fs";
+import { createRequire } from "node:module";
+import { join } from "node:path";
+
+const { chromium } = createRequire(join(process.cwd(), "package.json"))("playwright-core");
+const task = JSON.parse(readFileSync(process.argv[2], "utf8"));
+const out = (name) => join(task.out, name);
+
+const READY_WITHIN_MS = 60_000;
+const FIT_WITHIN_MS = 60_000;
+// WebGL 2 by a renderer in software: the same pictures on every machine, with or without a graphics card.
+const SOFTWARE_GRAPHICS = ["--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"];
+const NO_GRAPHICS = ["--disable-gpu", "--disable-software-rasterizer", "--disable-3d-apis"];
+const QUIET = [
+  "--no-sandbox", "--disable-gpu-sandbox", "--disable-quic", "--no-first-run", "--disable-background-networking",
+  "--disable-component-update", "--disable-sync",
+];
+
+function must(condition, what) {
+  if (!condition) throw new Error(what);
+}
+
+/** Runs `body` with a page of a fresh browser, which is closed whatever happens. */
+async function withPage({ graphics = SOFTWARE_GRAPHICS, dark = false, touch = false }, body) {
+  const browser = await chromium.launch({ executablePath: task.browser, args: [...QUIET, ...graphics] });
+  try {
+    const context = await browser.newContext({
+      viewport: { width: 1000, height: 700 }, colorScheme: dark ? "dark" : "light", hasTouch: touch, acceptDownloads: true,
+    });
+    const page = await context.newPage();
+    const log = { errors: [], elsewhere: [] };
+    page.on("pageerror", (error) => log.errors.push(String(error)));
+    page.on("console", (message) => message.type() === "error" && log.errors.push(message.text()));
+    page.on("request", (request) => {
+      const to = new URL(request.url());
+      if (to.protocol.startsWith("http") && to.host !== new URL(task.url).host && to.host !== new URL(task.brokenUrl).host) {
+        log.elsewhere.push(request.url());
+      }
+    });
+    return await body(page, log);
+  } finally {
+    await browser.close();
+  }
+}
+
+const state = (page) => page.evaluate(() => JSON.parse(window.fairpath.state() ?? "null"));
+
+async function open(page, url = task.url) {
+  await page.goto(url, { waitUntil: "commit" });
+  await page.waitForFunction(() => window.fairpath?.ready || window.fairpath?.trouble, undefined, { timeout: READY_WITHIN_MS });
+  return page.evaluate(() => ({ readyMs: window.fairpath.readyMs, trouble: window.fairpath.trouble }));
+}
+
+async function openedWell(page, url) {
+  const opened = await open(page, url);
+  must(!opened.trouble, `the page says: ${JSON.stringify(opened.trouble)}`);
+  return opened;
+}
+
+/** Draws one stroke with the mouse, every point an event of its own. */
+async function draw(page, points) {
+  await page.mouse.move(...points[0]);
+  await page.mouse.down();
+  for (const point of points.slice(1)) await page.mouse.move(...point);
+  await page.mouse.up();
+}
+
+/** Waits until as many curves are there as strokes. */
+async function settled(page, strokes) {
+  const done = (count) => {
+    const state = JSON.parse(window.fairpath.state() ?? "null");
+    return state && state.strokes === count && !state.busy;
+  };
+  try {
+    await page.waitForFunction(done, strokes, { timeout: FIT_WITHIN_MS });
+  } catch {
+    throw new Error(`${strokes} strokes were drawn, and the page stays at ${JSON.stringify(await state(page))}`);
+  }
+  return state(page);
+}
+
+/** How far the recorded strokes are from those that were drawn, in px; where the view begins does not matter. */
+function recordedWithin(drawn, recorded) {
+  must(recorded.length === drawn.length, `${drawn.length} strokes were drawn and ${recorded.length} recorded`);
+  let worst = 0;
+  drawn.forEach((points, i) => {
+    const kept = recorded[i].points;
+    // The last point comes twice: by the last move and by the lifting.
+    must(kept.length >= points.length && kept.length <= points.length + 1,
+      `stroke ${i + 1} was drawn with ${points.length} points and recorded with ${kept.length}`);
+    points.forEach(([x, y], k) => {
+      const off = [kept[k][0] - kept[0][0] - (x - points[0][0]), kept[k][1] - kept[0][1] - (y - points[0][1])];
+      worst = Math.max(worst, Math.hypot(...off));
+      must(k === 0 || kept[k][2] >= kept[k - 1][2], `time runs backwards in stroke ${i + 1}`);
+    });
+  });
+  return worst;
+}
+
+async function drawsAndSaves(seen) {
+  await withPage({}, async (page, log) => {
+    seen.readyMs = (await openedWell(page)).readyMs;
+    await page.screenshot({ path: out("ready.png") });
+    for (const points of task.strokes) await draw(page, points);
+    seen.state = await settled(page, task.strokes.length);
+    const recorded = await page.evaluate(() => window.fairpath.strokes());
+    writeFileSync(out("recorded.json"), recorded);
+    seen.recordedWithinPx = recordedWithin(task.strokes, JSON.parse(recorded).strokes);
+    must(seen.recordedWithinPx < 1e-3, `places are recorded with an error of ${seen.recordedWithinPx} px`);
+    const [download] = await Promise.all([page.waitForEvent("download", { timeout: 10_000 }), page.evaluate(() => window.fairpath.saveSvg())]);
+    await download.saveAs(out("saved.svg"));
+    seen.savedAs = download.suggestedFilename();
+    must(seen.savedAs.endsWith(".svg"), `the drawing is saved as ${seen.savedAs}`);
+    await page.screenshot({ path: out("drawn.png") });
+    must(log.errors.length === 0, `the page complains: ${log.errors.join("; ")}`);
+    must(log.elsewhere.length === 0, `the page asks other hosts: ${log.elsewhere.join(" ")}`);
+  });
+}
+
+/** A worker that dies is replaced, and what is drawn afterwards still becomes a curve. */
+async function survivesItsWorker(seen) {
+  await withPage({ dark: true }, async (page) => {
+    await page.addInitScript(() => {
+      window.workers = [];
+      window.Worker = class extends window.Worker {
+        constructor(...args) {
+          super(...args);
+          window.workers.push(this);
+        }
+      };
+    });
+    await openedWell(page);
+    await draw(page, task.strokes[0]);
+    await settled(page, 1);
+    // No job at all: the program's own door refuses it.
+    await page.evaluate(() => window.workers[0].postMessage(["1000000", null]));
+    await page.evaluate(() => new Promise((resolve) => setTimeout(resolve, 500)));
+    await draw(page, task.strokes[0].map(([x, y]) => [x, y + 40]));
+    await settled(page, 2);
+    seen.workers = await page.evaluate(() => window.workers.length);
+    must(seen.workers === 2, `${seen.workers} workers were made; the first was killed, so there must be two`);
+    await page.screenshot({ path: out("dark.png") });
+  });
+}
+
+/** Texts of many megabytes are there again after the page was left. */
+async function keepsTexts(seen) {
+  // Twenty million characters, one in ten of which takes two bytes.
+  const makeText = () => {
+    window.longText = () => Array.from({ length: 2_000_000 }, (_, i) => String(i).padStart(9, "0") + "é").join("");
+  };
+  await withPage({}, async (page) => {
+    await page.addInitScript(makeText);
+    await openedWell(page);
+    await page.evaluate(() => {
+      const { saveText } = window.fairpath;
+      // Not one after the other: calls must take effect in their order all the same.
+      return Promise.all([saveText("judge", "old"), saveText("judge", window.longText())]);
+    });
+    await openedWell(page);
+    seen.keptCharacters = await page.evaluate(async () => {
+      const kept = await window.fairpath.loadText("judge");
+      return kept === window.longText() ? kept.length : -1;
+    });
+    must(seen.keptCharacters === 20_000_000, "a text is not kept as it was saved");
+    const left = await page.evaluate(() => window.fairpath.removeText("judge").then(() => window.fairpath.loadText("judge")));
+    must(left === undefined, "a text that was removed is still there");
+  });
+}
+
+/** Gestures of the browser that would disturb drawing do nothing on the canvas. */
+async function keepsGesturesOff() {
+  await withPage({}, async (page) => {
+    await openedWell(page);
+    const prevented = await page.evaluate(() => {
+      const canvas = document.getElementById("canvas");
+      const events = [
+        new WheelEvent("wheel", { ctrlKey: true, deltaY: 100, bubbles: true, cancelable: true }),
+        new MouseEvent("contextmenu", { bubbles: true, cancelable: true }),
+      ];
+      return events.map((event) => (canvas.dispatchEvent(event), event.defaultPrevented));
+    });
+    must(prevented.every(Boolean), `the browser's own zoom or menu is not kept off: ${prevented}`);
+    const action = await page.evaluate(() => getComputedStyle(document.getElementById("canvas")).touchAction);
+    must(action === "none", `touches over the canvas scroll the page: touch-action is ${action}`);
+  });
+}
+
+/** Where the page cannot work it says so, under a title with these words. */
+async function saysSo(seen, name, words, options, prepare, url = task.url) {
+  await withPage(options, async (page) => {
+    await prepare?.(page);
+    const { trouble } = await open(page, url);
+    must(trouble, `${name}: the page claims to be well`);
+    must(trouble.title.includes(words), `${name}: the page says "${trouble.title}", not "${words}"`);
+    must(await page.isVisible("#trouble-remedy"), `${name}: the message is not shown`);
+    await page.screenshot({ path: out(`${name}.png`) });
+    (seen.troubles ??= {})[name] = trouble;
+  });
+}
+
+/** What the page shows when the program calls its last word. */
+async function saysSoLater(seen) {
+  await withPage({}, async (page) => {
+    await openedWell(page);
+    await page.evaluate(() => globalThis.fairpathPanicked("the judge says so"));
+    must(await page.isVisible("#trouble-remedy"), "a panic is not told");
+    must((await page.textContent("#trouble-details")) === "the judge says so", "the message of a panic is not shown");
+    await page.click("summary");
+    await page.screenshot({ path: out("panic.png") });
+    await page.click("#reload");
+    await page.waitForFunction(() => window.fairpath?.ready, undefined, { timeout: READY_WITHIN_MS });
+    seen.panicTold = true;
+  });
+}
+
+const seen = {};
+const steps = [
+  ["draws and saves", () => drawsAndSaves(seen)],
+  ["survives its worker", () => survivesItsWorker(seen)],
+  ["keeps texts", () => keepsTexts(seen)],
+  ["keeps gestures off", () => keepsGesturesOff()],
+  ["damaged program", () => saysSo(seen, "damaged", "could not be loaded", { dark: true }, undefined, task.brokenUrl)],
+  ["no graphics", () => saysSo(seen, "no-graphics", "No graphics", { graphics: NO_GRAPHICS })],
+  ["panic", () => saysSoLater(seen)],
+  ["no WebAssembly", () => saysSo(seen, "no-wasm", "cannot run", {}, (page) => page.addInitScript(() => delete window.WebAssembly))],
+];
+for (const [name, step] of steps) {
+  if (task.only && task.only !== name) continue;
+  const begun = Date.now();
+  try {
+    await step();
+    console.log(`${name}: as it must be, ${((Date.now() - begun) / 1000).toFixed(1)} s`);
+  } catch (error) {
+    console.log(`${name}: ${error.message ?? error}`);
+    process.exitCode = 1;
+  }
+}
+writeFileSync(out("seen.json"), JSON.stringify(seen, null, 1));
