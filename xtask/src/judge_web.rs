@@ -61,7 +61,8 @@ fn judge(page: &Path, browser: &Path, packages: &Path) -> Result<Outcome> {
     let task_file = out.join("task.json");
     fs::write(&task_file, task.to_string())?;
     let script = tree::root().join("xtask/judges/web/drive.mjs");
-    let drive = process::capture_within(Command::new("node").arg(script).arg(&task_file).current_dir(packages), DRIVE_LIMIT)?;
+    let drive =
+        process::capture_within(Command::new("node").arg(script).arg(&task_file).current_dir(packages), DRIVE_LIMIT)?;
     print!("{}", drive.text);
     if drive.code != Some(0) {
         bail!("the page does not do in the browser what it must; pictures are in {}", out.display());
@@ -69,8 +70,11 @@ fn judge(page: &Path, browser: &Path, packages: &Path) -> Result<Outcome> {
     let seen: Value = serde_json::from_str(&fs::read_to_string(out.join("seen.json"))?)?;
     let curves = same_curves(&out)?;
     let ready_ms = seen["readyMs"].as_f64().context("the browser measured no time")?;
-    let hint = if ready_ms > WANTED_READY_MS { format!(", more than the {WANTED_READY_MS} ms wanted") } else { String::new() };
-    Ok(Outcome::Passed(format!("drawn in a browser: {curves} curves as the command line makes them; ready in {ready_ms:.0} ms{hint}")))
+    let hint =
+        if ready_ms > WANTED_READY_MS { format!(", more than the {WANTED_READY_MS} ms wanted") } else { String::new() };
+    Ok(Outcome::Passed(format!(
+        "drawn in a browser: {curves} curves as the command line makes them; ready in {ready_ms:.0} ms{hint}"
+    )))
 }
 
 /// The curves of the saved drawing and those of the command line for the recorded strokes: the same to the bit. How many there are.

@@ -86,7 +86,9 @@ impl App {
                 #[cfg(target_arch = "wasm32")]
                 self.worker.send(self.strokes.len() as u64, encoded_strokes(std::slice::from_ref(&stroke)));
                 #[cfg(not(target_arch = "wasm32"))]
-                self.curves.borrow_mut().take(&crate::job::run_encoded_job(&encoded_strokes(std::slice::from_ref(&stroke))));
+                self.curves
+                    .borrow_mut()
+                    .take(&crate::job::run_encoded_job(&encoded_strokes(std::slice::from_ref(&stroke))));
                 self.strokes.push(stroke);
             }
         }
@@ -95,7 +97,12 @@ impl App {
 
 impl Curves {
     fn take(&mut self, answer: &str) {
-        let read = fairpath_io::read_splines_from(answer.as_bytes(), "answer", Some(SplineFormat::Json), &ReadOptions::default());
+        let read = fairpath_io::read_splines_from(
+            answer.as_bytes(),
+            "answer",
+            Some(SplineFormat::Json),
+            &ReadOptions::default(),
+        );
         if let Ok(file) = read {
             self.file.splines.extend(file.splines);
         }
@@ -137,7 +144,8 @@ impl eframe::App for App {
             painter.line(self.drawing.iter().map(|s| pos(Point::new(s.x, s.y))).collect(), thin);
             for entry in &self.curves.borrow().file.splines {
                 for segment in entry.spline.segments() {
-                    let points = (0..=32).map(|i| pos(segment.point_at(segment.length * f64::from(i) / 32.0))).collect();
+                    let points =
+                        (0..=32).map(|i| pos(segment.point_at(segment.length * f64::from(i) / 32.0))).collect();
                     painter.line(points, egui::Stroke::new(2.5, egui::Color32::from_rgb(40, 110, 220)));
                 }
             }

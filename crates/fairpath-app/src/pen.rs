@@ -193,8 +193,7 @@ mod tests {
             report(2, Touch, Cancel, 6.0),
             report(9, Pen, Up, 7.0),
         ]);
-        let expected =
-            [(Touch, Down, 1.0), (Touch, Cancel, 1.0), (Pen, Down, 2.0), (Pen, Move, 5.0), (Pen, Up, 7.0)];
+        let expected = [(Touch, Down, 1.0), (Touch, Cancel, 1.0), (Pen, Down, 2.0), (Pen, Move, 5.0), (Pen, Up, 7.0)];
         assert_eq!(drawn, expected);
     }
 

@@ -13,6 +13,10 @@ const READY_WITHIN_MS = 60_000;
 const FIT_WITHIN_MS = 60_000;
 // WebGL 2 by a renderer in software: the same pictures on every machine, with or without a graphics card.
 const SOFTWARE_GRAPHICS = ["--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"];
+const SOFTWARE_WEBGPU = [
+  "--enable-unsafe-webgpu", "--use-webgpu-adapter=swiftshader", "--use-vulkan=swiftshader", "--disable-vulkan-surface",
+  "--enable-features=Vulkan", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--ignore-gpu-blocklist",
+];
 const NO_GRAPHICS = ["--disable-gpu", "--disable-software-rasterizer", "--disable-3d-apis"];
 const QUIET = [
   "--no-sandbox", "--disable-gpu-sandbox", "--disable-quic", "--no-first-run", "--disable-background-networking",
@@ -24,11 +28,11 @@ function must(condition, what) {
 }
 
 /** Runs `body` with a page of a fresh browser, which is closed whatever happens. */
-async function withPage({ graphics = SOFTWARE_GRAPHICS, dark = false, touch = false }, body) {
+async function withPage({ graphics = SOFTWARE_GRAPHICS, dark = false }, body) {
   const browser = await chromium.launch({ executablePath: task.browser, args: [...QUIET, ...graphics] });
   try {
     const context = await browser.newContext({
-      viewport: { width: 1000, height: 700 }, colorScheme: dark ? "dark" : "light", hasTouch: touch, acceptDownloads: true,
+      viewport: { width: 1000, height: 700 }, colorScheme: dark ? "dark" : "light", acceptDownloads: true,
     });
     const page = await context.newPage();
     const log = { errors: [], elsewhere: [] };
@@ -60,11 +64,11 @@ async function openedWell(page, url) {
   return opened;
 }
 
-/** Draws one stroke with the mouse, every point an event of its own. */
+/** Draws one stroke with the mouse, every point an event of its own, all sent at once as a quick device does. */
 async function draw(page, points) {
   await page.mouse.move(...points[0]);
   await page.mouse.down();
-  for (const point of points.slice(1)) await page.mouse.move(...point);
+  await Promise.all(points.slice(1).map((point) => page.mouse.move(...point)));
   await page.mouse.up();
 }
 
@@ -100,10 +104,40 @@ function recordedWithin(drawn, recorded) {
   return worst;
 }
 
+/** How many pixels differ visibly between two pictures, given as PNG. */
+function changed(page, before, after) {
+  return page.evaluate(async (pictures) => {
+    const pixels = async (png) => {
+      const image = new Image();
+      image.src = "data:image/png;base64," + png;
+      await image.decode();
+      const { width, height } = image;
+      const context = new OffscreenCanvas(width, height).getContext("2d");
+      context.drawImage(image, 0, 0);
+      return context.getImageData(0, 0, width, height).data;
+    };
+    const [a, b] = await Promise.all(pictures.map(pixels));
+    let count = 0;
+    for (let i = 0; i < a.length; i += 4) {
+      if ([0, 1, 2].some((k) => Math.abs(a[i + k] - b[i + k]) > 30)) count += 1;
+    }
+    return count;
+  }, [before, after].map((png) => png.toString("base64")));
+}
+
+/** Fails unless at least half of the strokes' length left its mark, a pixel wide. */
+async function mustShow(seen, page, before, after) {
+  const step = ([x, y], [u, v]) => Math.hypot(u - x, v - y);
+  const lengths = task.strokes.map((points) => points.slice(1).reduce((sum, point, i) => sum + step(points[i], point), 0));
+  const drawn = lengths.reduce((sum, length) => sum + length, 0);
+  seen.changedPixels = await changed(page, before, after);
+  must(seen.changedPixels > drawn / 2, `${drawn.toFixed(0)} px were drawn, and ${seen.changedPixels} pixels look different`);
+}
+
 async function drawsAndSaves(seen) {
   await withPage({}, async (page, log) => {
     seen.readyMs = (await openedWell(page)).readyMs;
-    await page.screenshot({ path: out("ready.png") });
+    const before = await page.screenshot({ path: out("ready.png") });
     for (const points of task.strokes) await draw(page, points);
     seen.state = await settled(page, task.strokes.length);
     const recorded = await page.evaluate(() => window.fairpath.strokes());
@@ -114,9 +148,61 @@ async function drawsAndSaves(seen) {
     await download.saveAs(out("saved.svg"));
     seen.savedAs = download.suggestedFilename();
     must(seen.savedAs.endsWith(".svg"), `the drawing is saved as ${seen.savedAs}`);
-    await page.screenshot({ path: out("drawn.png") });
+    await mustShow(seen, page, before, await page.screenshot({ path: out("drawn.png") }));
     must(log.errors.length === 0, `the page complains: ${log.errors.join("; ")}`);
     must(log.elsewhere.length === 0, `the page asks other hosts: ${log.elsewhere.join(" ")}`);
+  });
+}
+
+/** Where the browser has WebGPU it is what the page draws with; screenshots are blank there, so the canvas itself is read. */
+async function drawsByWebGpu(seen) {
+  await withPage({ graphics: SOFTWARE_WEBGPU }, async (page, log) => {
+    await page.addInitScript(() => {
+      const getContext = HTMLCanvasElement.prototype.getContext;
+      window.contexts = [];
+      HTMLCanvasElement.prototype.getContext = function (kind, ...rest) {
+        window.contexts.push(kind);
+        return getContext.call(this, kind, ...rest);
+      };
+    });
+    await openedWell(page);
+    seen.webGpu = await page.evaluate(async () => Boolean(await navigator.gpu?.requestAdapter()));
+    if (!seen.webGpu) return console.log("draws by WebGPU: this browser has none here");
+    const contexts = await page.evaluate(() => window.contexts);
+    must(contexts.length === 1 && contexts[0] === "webgpu", `with WebGPU there the page draws by ${contexts}`);
+    const canvas = async (name) => {
+      const url = await page.evaluate(() => new Promise((resolve) => {
+        // A frame is asked for by a move over the canvas, and read before the browser takes it away.
+        const target = document.getElementById("canvas");
+        target.dispatchEvent(new MouseEvent("mousemove", { clientX: 5, clientY: 350, bubbles: true }));
+        requestAnimationFrame(() => requestAnimationFrame(() => resolve(target.toDataURL("image/png"))));
+      }));
+      const png = Buffer.from(url.split(",")[1], "base64");
+      writeFileSync(out(name), png);
+      return png;
+    };
+    const before = await canvas("webgpu-ready.png");
+    for (const points of task.strokes) await draw(page, points);
+    await settled(page, task.strokes.length);
+    await mustShow({}, page, before, await canvas("webgpu-drawn.png"));
+    must(log.errors.length === 0, `the page complains: ${log.errors.join("; ")}`);
+  });
+}
+
+/** While it loads the page says how much of how much it has. */
+async function showsItsProgress(seen) {
+  await withPage({}, async (page) => {
+    const session = await page.context().newCDPSession(page);
+    await session.send("Network.enable");
+    await session.send("Network.emulateNetworkConditions", { offline: false, latency: 20, downloadThroughput: 1e6, uploadThroughput: 1e6 });
+    await page.goto(task.url, { waitUntil: "commit" });
+    await page.waitForFunction(() => document.getElementById("progress")?.value > 0.4, undefined, { timeout: READY_WITHIN_MS });
+    seen.loading = await page.textContent("#amount");
+    must(/^\d+\.\d of \d+\.\d MB$/.test(seen.loading), `while it loads the page says "${seen.loading}"`);
+    must(await page.isVisible("#progress"), "no progress is shown");
+    await page.screenshot({ path: out("loading.png") });
+    await page.waitForFunction(() => window.fairpath?.ready, undefined, { timeout: READY_WITHIN_MS });
+    must(!(await page.isVisible("#curtain")), "the loading page stays in front of the application");
   });
 }
 
@@ -138,7 +224,8 @@ async function survivesItsWorker(seen) {
     // No job at all: the program's own door refuses it.
     await page.evaluate(() => window.workers[0].postMessage(["1000000", null]));
     await page.evaluate(() => new Promise((resolve) => setTimeout(resolve, 500)));
-    await draw(page, task.strokes[0].map(([x, y]) => [x, y + 40]));
+    // Far from the first, or it might be taken for a correction of it.
+    await draw(page, Array.from({ length: 80 }, (_, i) => [350 + 4 * i, 540 + 40 * Math.sin(i / 9)]));
     await settled(page, 2);
     seen.workers = await page.evaluate(() => window.workers.length);
     must(seen.workers === 2, `${seen.workers} workers were made; the first was killed, so there must be two`);
@@ -220,6 +307,8 @@ async function saysSoLater(seen) {
 const seen = {};
 const steps = [
   ["draws and saves", () => drawsAndSaves(seen)],
+  ["draws by WebGPU", () => drawsByWebGpu(seen)],
+  ["shows its progress", () => showsItsProgress(seen)],
   ["survives its worker", () => survivesItsWorker(seen)],
   ["keeps texts", () => keepsTexts(seen)],
   ["keeps gestures off", () => keepsGesturesOff()],

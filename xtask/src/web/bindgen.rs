@@ -42,8 +42,8 @@ fn tool() -> Result<PathBuf> {
 /// The command and the library in the page must be of one version, since they speak a private language.
 fn check_versions(project: &str, command: &str) -> Result<()> {
     let of_library = locked(project, "wasm-bindgen").context("Cargo.lock has no wasm-bindgen")?;
-    let of_command =
-        locked(command, "wasm-bindgen-cli-support").context("xtask/bindgen/Cargo.lock has no wasm-bindgen-cli-support")?;
+    let of_command = locked(command, "wasm-bindgen-cli-support")
+        .context("xtask/bindgen/Cargo.lock has no wasm-bindgen-cli-support")?;
     if of_library != of_command {
         bail!(
             "Cargo.lock has wasm-bindgen {of_library} and xtask/bindgen has {of_command}: write \
@@ -55,7 +55,8 @@ fn check_versions(project: &str, command: &str) -> Result<()> {
 
 /// The version of a package in the text of a Cargo.lock.
 fn locked<'a>(lock: &'a str, package: &str) -> Option<&'a str> {
-    let entry = lock.split("[[package]]").find(|entry| entry.lines().any(|line| line == format!("name = \"{package}\"")))?;
+    let entry =
+        lock.split("[[package]]").find(|entry| entry.lines().any(|line| line == format!("name = \"{package}\"")))?;
     entry.lines().find_map(|line| line.strip_prefix("version = \"")?.strip_suffix('"'))
 }
 

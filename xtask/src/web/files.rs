@@ -117,7 +117,8 @@ fn compress(path: &Path) -> Result<()> {
 pub(super) fn measure(folder: &Path) -> Result<Page> {
     let mut sizes = Vec::new();
     for path in plain_files(folder)? {
-        let bytes = |path: PathBuf| fs::metadata(&path).map(|data| data.len()).with_context(|| format!("{path:?} is missing"));
+        let bytes =
+            |path: PathBuf| fs::metadata(&path).map(|data| data.len()).with_context(|| format!("{path:?} is missing"));
         sizes.push(Size {
             name: name_of(&path),
             plain: bytes(path.clone())?,
@@ -221,7 +222,9 @@ mod tests {
         let plain = fs::read(&index).unwrap();
         let (mut gzip, mut brotli) = (Vec::new(), Vec::new());
         flate2::read::GzDecoder::new(File::open(with_ending(&index, "gz")).unwrap()).read_to_end(&mut gzip).unwrap();
-        brotli::Decompressor::new(File::open(with_ending(&index, "br")).unwrap(), 4096).read_to_end(&mut brotli).unwrap();
+        brotli::Decompressor::new(File::open(with_ending(&index, "br")).unwrap(), 4096)
+            .read_to_end(&mut brotli)
+            .unwrap();
         assert!(gzip == plain && brotli == plain);
         let measured = measure(&folder).unwrap();
         let names: Vec<&str> = measured.sizes.iter().map(|size| size.name.as_str()).collect();

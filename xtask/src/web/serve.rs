@@ -164,7 +164,9 @@ mod tests {
         let folder = folder("outside");
         fs::write(folder.with_extension("html"), "secret").unwrap();
         let name = folder.with_extension("html").file_name().unwrap().to_string_lossy().into_owned();
-        for url in [format!("/../{name}"), format!("/..%2f{name}"), format!("//{name}"), "/etc/passwd".into(), "/.html".into()] {
+        for url in
+            [format!("/../{name}"), format!("/..%2f{name}"), format!("//{name}"), "/etc/passwd".into(), "/.html".into()]
+        {
             assert_eq!(find(&folder, &url, ""), None, "{url}");
         }
         fs::remove_file(folder.with_extension("html")).unwrap();
@@ -183,7 +185,10 @@ mod tests {
             text
         };
         let page = ask("/");
-        assert!(page.starts_with("HTTP/1.1 200") && page.contains("text/html") && page.ends_with("<p>here</p>"), "{page}");
+        assert!(
+            page.starts_with("HTTP/1.1 200") && page.contains("text/html") && page.ends_with("<p>here</p>"),
+            "{page}"
+        );
         assert!(ask("/none.html").starts_with("HTTP/1.1 404"));
         drop(server);
         fs::remove_dir_all(folder).unwrap();

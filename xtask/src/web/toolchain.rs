@@ -101,7 +101,10 @@ pub(super) fn usual_linker() -> Result<PathBuf> {
     let host = first_line(Command::new(rustc()).args(["--print", "host-tuple"]))?;
     let linker = Path::new(&sysroot).join("lib/rustlib").join(host).join("bin/rust-lld");
     if !linker.is_file() {
-        bail!("the usual compiler has no linker at {}: install Rust by rustup, whose toolchains have it", linker.display());
+        bail!(
+            "the usual compiler has no linker at {}: install Rust by rustup, whose toolchains have it",
+            linker.display()
+        );
     }
     Ok(linker)
 }

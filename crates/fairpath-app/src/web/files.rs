@@ -44,10 +44,7 @@ pub fn open(accept: &str, then: impl FnOnce(Result<(String, Vec<u8>), String>) +
     ask_for_file(accept, then).map_err(|error| format!("the browser cannot open files: {}", said(&error)))
 }
 
-fn ask_for_file(
-    accept: &str,
-    then: impl FnOnce(Result<(String, Vec<u8>), String>) + 'static,
-) -> Result<(), JsValue> {
+fn ask_for_file(accept: &str, then: impl FnOnce(Result<(String, Vec<u8>), String>) + 'static) -> Result<(), JsValue> {
     let input: HtmlInputElement = document()?.create_element("input")?.unchecked_into();
     input.set_type("file");
     input.set_accept(accept);
@@ -57,7 +54,8 @@ fn ask_for_file(
             let Some(file) = input.files().and_then(|files| files.get(0)) else { return };
             spawn_local(async move {
                 let name = file.name();
-                let read = read(&file).await.map_err(|error| format!("the browser cannot read {name}: {}", said(&error)));
+                let read =
+                    read(&file).await.map_err(|error| format!("the browser cannot read {name}: {}", said(&error)));
                 then(read.map(|bytes| (name, bytes)));
             });
         }

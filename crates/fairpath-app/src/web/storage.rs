@@ -18,7 +18,9 @@ const TEXTS: &str = "texts";
 #[non_exhaustive]
 pub enum StorageError {
     /// Saving failed; what was saved before is still there.
-    #[error("the browser could not save {key} ({reason}): free some space or save to a file, and mind that private windows forget all")]
+    #[error(
+        "the browser could not save {key} ({reason}): free some space or save to a file, and mind that private windows forget all"
+    )]
     Save {
         /// What was to be saved.
         key: String,
