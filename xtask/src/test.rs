@@ -4,7 +4,7 @@ use anyhow::{Result, bail};
 
 use crate::process::{cargo, run as run_command};
 use crate::steps::{Outcome, Steps};
-use crate::{evaluate, generate, judge_web, judges, layers, process, rectilinear, tools, tree};
+use crate::{evaluate, generate, judge_web, judges, layers, process, rectilinear, tools, tree, web};
 
 /// Runs everything that can tell whether the project is sound.
 pub(crate) fn run() -> Result<()> {
@@ -17,6 +17,7 @@ pub(crate) fn run() -> Result<()> {
             "clippy and rustc warn of nothing",
         )
     });
+    steps.step("lints of the page", page_lints);
     steps.step("bans in the cores", core_bans);
     steps.step("tests", tests);
     steps.step("documentation", || {
@@ -70,6 +71,15 @@ fn release_build() -> Result<Outcome> {
 fn command(args: &[&str], note: &str) -> Result<Outcome> {
     run_command(&mut cargo(args))?;
     Ok(Outcome::Passed(note.to_owned()))
+}
+
+/// The lints of what only the browser's build has.
+fn page_lints() -> Result<Outcome> {
+    Ok(if web::lint()? {
+        Outcome::Passed("clippy and rustc warn of nothing in the browser's build either".into())
+    } else {
+        Outcome::Skipped("this compiler has no standard library for the browser's machine".into())
+    })
 }
 
 /// The cores read no clock and no file, start no thread, and take no platform's mathematics.

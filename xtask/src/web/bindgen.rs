@@ -22,7 +22,7 @@ fn tool() -> Result<PathBuf> {
     check_versions(&read(tree::root().join("Cargo.lock"))?, &lock)?;
     let sources = format!("{lock}{}{}", read(source.join("Cargo.toml"))?, read(source.join("src/main.rs"))?);
 
-    let folder = tree::cache().join("web/bindgen");
+    let folder = tree::cache().join("page/bindgen");
     let tool = folder.join(format!("fairpath-bindgen{EXE_SUFFIX}"));
     let stamp = folder.join("sources.txt");
     // The stamp is written last, so a broken build is never taken for a good one.

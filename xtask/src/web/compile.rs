@@ -1,11 +1,11 @@
-//! The application as WebAssembly.
+//! The application as WebAssembly, and what clippy says of the parts that only a browser sees.
 
 use std::path::PathBuf;
 use std::process::Command;
 
 use anyhow::Result;
 
-use super::toolchain::{TARGET, Toolchain};
+use super::toolchain::{TARGET, Toolchain, has_target};
 use crate::{process, tree};
 
 /// Compiles the application's library for the browser; the path of the module.
@@ -22,4 +22,15 @@ pub(super) fn wasm(profile: &str, toolchain: Toolchain) -> Result<PathBuf> {
     cargo.env_remove("RUSTFLAGS").env_remove("CARGO_ENCODED_RUSTFLAGS").envs(compiler.variables);
     process::run(&mut cargo)?;
     Ok(folder.join(TARGET).join(profile).join("fairpath_app.wasm"))
+}
+
+/// Lints the application as the browser gets it; false if the usual compiler, whose clippy it is, does not know the browser's machine.
+pub(crate) fn lint() -> Result<bool> {
+    if !has_target()? {
+        return Ok(false);
+    }
+    let mut clippy = process::cargo(&["clippy", "--quiet", "--package", "fairpath-app", "--lib", "--target", TARGET]);
+    clippy.arg("--target-dir").arg(tree::target_folder()?.join("web-build")).args(["--", "--deny", "warnings"]);
+    process::run(&mut clippy)?;
+    Ok(true)
 }

@@ -65,7 +65,7 @@ fn version() -> Result<String> {
 }
 
 fn folder() -> PathBuf {
-    tree::cache().join("web/std")
+    tree::cache().join("page/std")
 }
 
 fn stamp(library: &Path) -> PathBuf {

@@ -13,6 +13,7 @@ use anyhow::Result;
 
 use crate::tree;
 
+pub(crate) use compile::lint;
 pub(crate) use files::{PROGRAM_FILE, copy};
 pub(crate) use serve::Server;
 pub(crate) use toolchain::Toolchain;

@@ -64,7 +64,7 @@ fn usual() -> Result<Compiler> {
 }
 
 /// Whether the usual compiler has a standard library for the target.
-fn has_target() -> Result<bool> {
+pub(super) fn has_target() -> Result<bool> {
     let folder = first_line(Command::new(rustc()).args(["--print", "target-libdir", "--target", TARGET]))?;
     let Ok(entries) = Path::new(&folder).read_dir() else { return Ok(false) };
     Ok(entries.flatten().any(|entry| entry.file_name().to_string_lossy().starts_with("libstd-")))
