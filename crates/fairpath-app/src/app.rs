@@ -1,159 +1,195 @@
-//! A stand-in for the application: strokes in, curves out.
-use std::cell::RefCell;
-use std::rc::Rc;
+//! The application: what it holds, and the order in which a frame goes.
 
-use eframe::egui;
+use crate::canvas::Canvas;
+use crate::panels::{self, Panels};
+use crate::view::View;
+use crate::worker::Worker;
+use crate::{example, theme};
+use eframe::egui::{self, CentralPanel, Context, Frame, Ui};
 use fairpath_curve::Point;
-use fairpath_fit::Stroke;
-use fairpath_io::{ReadOptions, SplineFile, SplineFormat, StrokeFile, StrokeFormat, WriteOptions};
+use fairpath_sketch::{Answer, Curve, CurveId, Drawing, Neatening, Session};
 
-use crate::pen::{PenPhase, PenSample};
+/// What a press on the canvas does.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) enum Tool {
+    /// Draws a stroke; near a curve, over it.
+    #[default]
+    Draw,
+    /// Selects, moves and lengthens.
+    Select,
+    /// Holds a curve through points.
+    Pull,
+    /// Cuts a curve.
+    Cut,
+    /// Makes corners and smooths them.
+    Corner,
+}
 
-#[derive(Default)]
-struct Curves {
-    file: SplineFile,
-    deaths: Vec<String>,
+/// In which colours curves are drawn.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) enum Ink {
+    /// Lines red, arcs green, clothoids blue.
+    #[default]
+    Kinds,
+    /// All alike.
+    Plain,
+}
+
+/// What is shown of the drawing.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Shown {
+    pub(crate) ink: Ink,
+    /// The strokes as they were drawn.
+    pub(crate) ghost: bool,
+    pub(crate) grid: bool,
+    pub(crate) comb: bool,
+    /// Length of a comb's tooth on the screen for a curvature of 1 per point, points squared.
+    pub(crate) comb_scale: f64,
+    /// The curvature along the selected curve, under the canvas.
+    pub(crate) plot: bool,
+    /// The figures of the selected curve, beside the canvas.
+    pub(crate) inspector: bool,
+    /// Parts of French curves are laid while a stroke is drawn.
+    pub(crate) greedy: bool,
+}
+
+impl Default for Shown {
+    fn default() -> Self {
+        Self {
+            ink: Ink::Kinds,
+            ghost: true,
+            grid: true,
+            comb: false,
+            comb_scale: 1500.0,
+            plot: false,
+            inspector: true,
+            greedy: false,
+        }
+    }
 }
 
 /// The application.
 pub struct App {
-    strokes: Vec<Stroke>,
-    drawing: Vec<PenSample>,
-    curves: Rc<RefCell<Curves>>,
-    #[cfg(target_arch = "wasm32")]
-    worker: crate::web::JobWorker,
+    pub(crate) session: Session,
+    worker: Box<dyn Worker>,
+    pub(crate) view: View,
+    pub(crate) canvas: Canvas,
+    pub(crate) tool: Tool,
+    pub(crate) shown: Shown,
+    pub(crate) panels: Panels,
+    /// All is to be shown as soon as the canvas has its size.
+    fit_view: bool,
 }
 
 impl App {
-    /// A fresh one.
+    /// The application with a worker of the caller's, on the drawing of a first start.
     #[must_use]
-    pub fn new(creation: &eframe::CreationContext<'_>) -> Self {
-        let curves = Rc::new(RefCell::new(Curves::default()));
-        let _ = creation;
-        #[cfg(target_arch = "wasm32")]
-        let worker = {
-            let curves = Rc::clone(&curves);
-            crate::web::JobWorker::new(&creation.egui_ctx, move |_, outcome| match outcome {
-                Ok(answer) => curves.borrow_mut().take(&answer),
-                Err(reason) => curves.borrow_mut().deaths.push(reason),
-            })
-        };
-        Self {
-            strokes: Vec::new(),
-            drawing: Vec::new(),
-            curves,
-            #[cfg(target_arch = "wasm32")]
+    pub fn new(ctx: &Context, worker: Box<dyn Worker>) -> Self {
+        theme::install(ctx);
+        let mut app = Self {
+            session: Session::new(first_drawing()),
             worker,
+            view: View::default(),
+            canvas: Canvas::default(),
+            tool: Tool::default(),
+            shown: Shown::default(),
+            panels: Panels::default(),
+            fit_view: true,
+        };
+        app.panels.hint = true;
+        app
+    }
+
+    /// The application with a thread that fits.
+    ///
+    /// # Panics
+    /// When the system gives no thread.
+    #[cfg(not(target_arch = "wasm32"))]
+    #[must_use]
+    pub fn on_desktop(ctx: &Context) -> Self {
+        let worker = crate::worker::ThreadWorker::start(ctx.clone()).expect("the system gives a thread");
+        Self::new(ctx, Box::new(worker))
+    }
+
+    /// The work on the drawing.
+    #[must_use]
+    pub fn session(&self) -> &Session {
+        &self.session
+    }
+
+    /// The work on the drawing, to change it.
+    pub fn session_mut(&mut self) -> &mut Session {
+        &mut self.session
+    }
+
+    /// Whether every curve that was asked for is there.
+    #[must_use]
+    pub fn is_settled(&self) -> bool {
+        self.session.is_settled()
+    }
+
+    /// Shows all of the drawing.
+    pub(crate) fn fit_view(&mut self) {
+        let boxes = self.session.drawing().curves().iter().map(|curve| curve.spline.bounding_box());
+        if let Some(all) = boxes.reduce(|a, b| a.union(b)) {
+            self.view.fit(Point::new(all.x0, all.y0), Point::new(all.x1, all.y1));
         }
     }
 
-    /// Figures.
-    #[must_use]
-    pub fn state_json(&self) -> String {
-        let curves = self.curves.borrow();
-        let segments: usize = curves.file.splines.iter().map(|entry| entry.spline.segments().len()).sum();
-        serde_json::json!({ "strokes": self.strokes.len(), "curves": curves.file.splines.len(), "segments": segments,
-            "busy": self.strokes.len() > curves.file.splines.len() + curves.deaths.len(), "troubles": curves.deaths })
-        .to_string()
-    }
-
-    /// Strokes.
-    #[must_use]
-    pub fn strokes_json(&self) -> String {
-        encoded_strokes(&self.strokes)
-    }
-
-    /// The drawing.
-    #[must_use]
-    pub fn svg(&self) -> String {
-        let file = &self.curves.borrow().file;
-        let encoded = fairpath_io::encode_splines(file, SplineFormat::Svg, None, &WriteOptions::default());
-        encoded.map(|encoded| String::from_utf8_lossy(&encoded.bytes).into_owned()).unwrap_or_default()
-    }
-
-    fn take(&mut self, sample: PenSample) {
-        match sample.phase {
-            PenPhase::Down => self.drawing = vec![sample],
-            PenPhase::Move => self.drawing.push(sample),
-            PenPhase::Cancel => self.drawing.clear(),
-            PenPhase::Up => {
-                let drawn = std::mem::take(&mut self.drawing);
-                let mut stroke = Stroke::new(
-                    format!("stroke {}", self.strokes.len() + 1),
-                    drawn.iter().map(|sample| Point::new(sample.x, sample.y)).collect(),
-                );
-                stroke.times_s = drawn.iter().map(|sample| sample.time_s).collect();
-                #[cfg(target_arch = "wasm32")]
-                self.worker.send(self.strokes.len() as u64, encoded_strokes(std::slice::from_ref(&stroke)));
-                #[cfg(not(target_arch = "wasm32"))]
-                self.curves
-                    .borrow_mut()
-                    .take(&crate::job::run_encoded_job(&encoded_strokes(std::slice::from_ref(&stroke))));
-                self.strokes.push(stroke);
+    fn take_answers(&mut self) {
+        for (ticket, answer) in self.worker.answers() {
+            self.session.take_answer(ticket, answer);
+        }
+        while let Some((ticket, job)) = self.session.next_job() {
+            self.worker.submit(ticket, job);
+            let answers: Vec<(_, Answer)> = self.worker.answers();
+            if answers.is_empty() {
+                break;
             }
+            // A worker that answers at once is asked again.
+            answers.into_iter().for_each(|(ticket, answer)| self.session.take_answer(ticket, answer));
         }
     }
-}
-
-impl Curves {
-    fn take(&mut self, answer: &str) {
-        let read = fairpath_io::read_splines_from(
-            answer.as_bytes(),
-            "answer",
-            Some(SplineFormat::Json),
-            &ReadOptions::default(),
-        );
-        if let Ok(file) = read {
-            self.file.splines.extend(file.splines);
-        }
-    }
-}
-
-fn encoded_strokes(strokes: &[Stroke]) -> String {
-    let bytes = fairpath_io::encode_strokes(&StrokeFile::new(strokes.to_vec()), StrokeFormat::Json);
-    bytes.map(|bytes| String::from_utf8_lossy(&bytes).into_owned()).unwrap_or_default()
 }
 
 impl eframe::App for App {
-    fn ui(&mut self, ui: &mut egui::Ui, _: &mut eframe::Frame) {
-        #[cfg(target_arch = "wasm32")]
-        for sample in crate::web::pen::drain() {
-            self.take(sample);
-        }
-        if ui.input(|input| input.key_pressed(egui::Key::P)) {
-            panic!("asked to panic");
-        }
-        egui::CentralPanel::default().show(ui, |ui| {
-            ui.horizontal(|ui| {
-                ui.label(format!("{} strokes", self.strokes.len()));
-                #[cfg(target_arch = "wasm32")]
-                if ui.button("Save SVG").clicked() {
-                    let _ = crate::web::download("drawing.svg", self.svg().as_bytes(), "image/svg+xml");
-                }
-                #[cfg(target_arch = "wasm32")]
-                if ui.button("Die").clicked() {
-                    self.worker.send(1000, "die of this".into());
-                }
-            });
-            let pos = |p: Point| egui::pos2(p.x as f32, p.y as f32);
-            let painter = ui.painter();
-            let thin = egui::Stroke::new(1.0, egui::Color32::GRAY);
-            for stroke in &self.strokes {
-                painter.line(stroke.points.iter().map(|p| pos(*p)).collect(), thin);
+    fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {
+        self.take_answers();
+        panels::shortcuts::read(self, ui);
+        panels::plot::show(self, ui);
+        CentralPanel::default().frame(Frame::NONE).show(ui, |ui| {
+            self.canvas.show(ui, &mut self.session, &mut self.view, self.tool, &self.shown);
+            if std::mem::take(&mut self.fit_view) {
+                self.fit_view();
+                ui.ctx().request_repaint();
             }
-            painter.line(self.drawing.iter().map(|s| pos(Point::new(s.x, s.y))).collect(), thin);
-            for entry in &self.curves.borrow().file.splines {
-                for segment in entry.spline.segments() {
-                    let points =
-                        (0..=32).map(|i| pos(segment.point_at(segment.length * f64::from(i) / 32.0))).collect();
-                    painter.line(points, egui::Stroke::new(2.5, egui::Color32::from_rgb(40, 110, 220)));
-                }
-            }
+            panels::show(self, ui);
         });
+        if let Some(trouble) = self.session.take_trouble() {
+            self.panels.say(trouble.text);
+        }
+        self.take_answers();
     }
 
+    /// The page asks the application about its drawing.
     #[cfg(target_arch = "wasm32")]
     fn as_any_mut(&mut self) -> Option<&mut dyn std::any::Any> {
         Some(&mut *self)
     }
+
+    fn clear_color(&self, visuals: &egui::Visuals) -> [f32; 4] {
+        visuals.panel_fill.to_normalized_gamma_f32()
+    }
+}
+
+/// The drawing of a first start.
+fn first_drawing() -> Drawing {
+    let file = example::strokes();
+    let mut drawing = Drawing::new(file.unit, file.y);
+    for (i, stroke) in file.strokes.into_iter().enumerate() {
+        if let Ok(curve) = Curve::drawn(CurveId(i as u64 + 1), stroke, Neatening::default()) {
+            drawing.put(curve);
+        }
+    }
+    drawing
 }

@@ -1,8 +1,19 @@
-//! Draw a stroke and see it become fair.
+//! The sketching application: strokes become fair curves while they are drawn, on the desktop and in the browser.
+//!
+//! What the application *does* is in `fairpath-sketch`; here is how it looks and how hands reach it. One frame goes one way: answers of the worker come in,
+//! then what hands do, then everything is shown, then jobs go out.
+
 mod app;
-mod job;
+mod canvas;
+mod example;
+mod icons;
+mod panels;
 pub mod pen;
+mod theme;
+mod view;
 #[cfg(target_arch = "wasm32")]
 pub mod web;
+mod worker;
 
 pub use app::App;
+pub use worker::{InlineWorker, Worker};

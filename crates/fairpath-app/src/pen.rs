@@ -1,7 +1,5 @@
 //! What a pen, a mouse or a finger does: reports of the device come in, the samples of one stroke after another go out.
 
-use std::fmt;
-
 /// One report of the device while it draws.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PenSample {
@@ -52,6 +50,17 @@ pub struct PenReport {
     pub draws: bool,
     /// Its values; the pressure as the system states it, measured or not.
     pub sample: PenSample,
+}
+
+/// All samples since the last call, in the order of their times, where the platform thins out what the user interface hears: in a browser.
+/// Empty on the desktop, whose windows hear everything.
+#[must_use]
+pub fn drain() -> Vec<PenSample> {
+    #[cfg(target_arch = "wasm32")]
+    let samples = crate::web::pen::drain();
+    #[cfg(not(target_arch = "wasm32"))]
+    let samples = Vec::new();
+    samples
 }
 
 /// Sorts reports into strokes: one pointer draws at a time.
@@ -113,16 +122,6 @@ impl PenFilter {
 /// The pressure if the device measures any: systems state one half for a mouse, and 0, one half or 1 for a finger.
 fn measured(kind: PenKind, stated: Option<f32>) -> Option<f32> {
     stated.filter(|pressure| kind == PenKind::Pen && pressure.is_finite()).map(|pressure| pressure.clamp(0.0, 1.0))
-}
-
-impl fmt::Display for PenKind {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Pen => "pen",
-            Self::Mouse => "mouse",
-            Self::Touch => "touch",
-        })
-    }
 }
 
 #[cfg(test)]

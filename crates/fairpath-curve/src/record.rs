@@ -1,6 +1,7 @@
-//! The written form of a segment, as in the file format fairpath-spline 1.
+//! The written forms of a segment and of a spline, as in the file format fairpath-spline 1.
 
 use crate::segment::{Kind, Segment};
+use crate::spline::{Continuity, Spline, SplineError};
 use kurbo::Point;
 use serde::{Deserialize, Serialize};
 
@@ -52,5 +53,36 @@ impl schemars::JsonSchema for Segment {
 
     fn json_schema(generator: &mut schemars::SchemaGenerator) -> schemars::Schema {
         SegmentRecord::json_schema(generator)
+    }
+}
+
+/// A spline as it is written: `{"closed","segments","joins"}`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[schemars(rename = "Spline")]
+pub struct SplineRecord {
+    /// Whether the last segment runs back into the first.
+    pub closed: bool,
+    /// The segments in order of travel.
+    pub segments: Vec<SegmentRecord>,
+    /// What holds at each join.
+    pub joins: Vec<Continuity>,
+}
+
+impl From<Spline> for SplineRecord {
+    fn from(spline: Spline) -> Self {
+        Self {
+            closed: spline.is_closed(),
+            segments: spline.segments().iter().map(|&segment| segment.into()).collect(),
+            joins: spline.joins().to_vec(),
+        }
+    }
+}
+
+impl TryFrom<SplineRecord> for Spline {
+    type Error = SplineError;
+
+    fn try_from(record: SplineRecord) -> Result<Self, SplineError> {
+        let segments = record.segments.into_iter().map(Segment::from).collect();
+        Self::new(segments, record.joins, record.closed)
     }
 }

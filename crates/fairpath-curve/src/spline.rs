@@ -22,6 +22,8 @@ pub enum Continuity {
 ///
 /// Joins: `joins()[i]` lies between segment `i` and `i + 1`; a closed spline has one more, from the last segment to the first.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(into = "crate::record::SplineRecord", try_from = "crate::record::SplineRecord"))]
 pub struct Spline {
     segments: Vec<Segment>,
     joins: Vec<Continuity>,

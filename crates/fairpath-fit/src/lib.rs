@@ -86,6 +86,15 @@ pub fn fit_observed(
     shortest_path::fit(stroke, options, observer, stages)
 }
 
+/// Figures of a curve beside the points of a stroke, where no fit has told them: deviations in the unit of both, inflections, pieces. `pixel_size` is the
+/// size of a pixel in that unit, by which curvature that is only rounding is told.
+#[must_use]
+pub fn measure(spline: &fairpath_curve::Spline, stroke: &Stroke, pixel_size: f64) -> Report {
+    let mut report = Report { points: stroke.points.len(), ..Report::default() };
+    conclude::describe(&mut report, spline, stroke, pixel_size);
+    report
+}
+
 /// The curve of a stroke with piecewise linear curvature (McCrae and Singh 2008), in the stroke's unit and frame: clothoids with G2 joins
 /// between corners. Lengths among the options are in px of `options.pixel_size` units.
 ///

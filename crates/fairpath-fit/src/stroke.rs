@@ -1,9 +1,10 @@
 //! What a user draws: a sequence of points, with times and pressures where the device gives them.
 
 use fairpath_curve::Point;
+use serde::{Deserialize, Serialize};
 
 /// A hand-drawn stroke.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Stroke {
     /// Name, unique in its file; the result carries it.
     pub name: String,

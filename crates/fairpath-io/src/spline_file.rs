@@ -55,7 +55,7 @@ impl SplineEntry {
 }
 
 /// Which French curves a spline was drawn with, and where each lay.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct UsedTemplates {
     /// What the set is called.
     pub set: String,

@@ -1,12 +1,13 @@
 //! A triangle mesh in space, what it measures, and what is wrong with it.
 
+use serde::{Deserialize, Serialize};
 use std::fmt;
 
 /// Triangles over shared vertices.
 ///
 /// Coordinates are in the unit and the x and y directions of the curve that the surface comes from; z is across, and x, y, z are right-handed
 /// if x, y are seen with y up. Triangles are counterclockwise seen from outside.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Mesh {
     /// Places of the vertices.
     pub vertices: Vec<[f64; 3]>,

@@ -1,5 +1,8 @@
 //! What the page's script asks about the drawing: for whoever wants to know how the application does, above all the judge that drives it.
 
+use fairpath_io::{SplineFormat, StrokeFormat, WriteOptions, encode_splines, encode_strokes};
+use fairpath_sketch::{splines_of, strokes_of};
+use serde_json::json;
 use wasm_bindgen::prelude::*;
 
 use super::{app_runner, files, storage};
@@ -11,31 +14,55 @@ pub fn frames() -> f64 {
     app_runner::frames() as f64
 }
 
-/// Figures about the drawing, as JSON; none while the application is busy with a frame.
+/// Figures about the drawing and the view on it, as JSON; none while the application is busy with a frame.
+///
+/// `strokes` counts the curves that were drawn, `fitted` those of them that are what they shall be; `busy` tells whether anything is still to
+/// be computed; `pixel_size` is the size of a point of the screen in the drawing's unit, by which strokes are fitted that are drawn now.
 #[wasm_bindgen]
 pub fn state() -> Option<String> {
-    app_runner::ask(|app| app.state_json())
+    app_runner::ask(|app| {
+        let curves = app.session().drawing().curves();
+        let segments: usize = curves.iter().map(|curve| curve.spline.segments().len()).sum();
+        let fitted = curves.iter().filter(|curve| curve.fitted).count();
+        let (busy, pixel_size) = (!app.is_settled(), app.view.pixel_size());
+        let figures = json!({
+            "strokes": curves.len(), "fitted": fitted, "segments": segments, "busy": busy, "pixel_size": pixel_size,
+        });
+        figures.to_string()
+    })
 }
 
-/// The strokes as they were recorded, in the format `fairpath-strokes` 1.
-#[wasm_bindgen]
-pub fn strokes() -> Option<String> {
-    app_runner::ask(|app| app.strokes_json())
-}
-
-/// The drawing as it would be saved as SVG.
-#[wasm_bindgen]
-pub fn svg() -> Option<String> {
-    app_runner::ask(|app| app.svg())
-}
-
-/// Saves the drawing as SVG, as the menu does.
+/// The strokes as they were recorded, in the format `fairpath-strokes` 1; none while the application is busy with a frame.
 ///
 /// # Errors
-/// When the application is busy with a frame, or the browser refuses.
+/// When they cannot be written.
+#[wasm_bindgen]
+pub fn strokes() -> Result<Option<String>, JsError> {
+    let file = app_runner::ask(|app| strokes_of(app.session().drawing()));
+    file.map(|file| text(encode_strokes(&file, StrokeFormat::Json)?)).transpose()
+}
+
+/// The drawing as it would be saved as SVG; none while the application is busy with a frame.
+///
+/// # Errors
+/// When it cannot be written.
+#[wasm_bindgen]
+pub fn svg() -> Result<Option<String>, JsError> {
+    let file = app_runner::ask(|app| splines_of(app.session().drawing()));
+    file.map(|file| text(encode_splines(&file, SplineFormat::Svg, None, &WriteOptions::default())?.bytes)).transpose()
+}
+
+fn text(bytes: Vec<u8>) -> Result<String, JsError> {
+    Ok(String::from_utf8(bytes)?)
+}
+
+/// Saves the drawing as SVG.
+///
+/// # Errors
+/// When the application is busy with a frame, the drawing cannot be written, or the browser refuses.
 #[wasm_bindgen(js_name = saveSvg)]
 pub fn save_svg() -> Result<(), JsError> {
-    let svg = svg().ok_or_else(|| JsError::new("the application is busy"))?;
+    let svg = svg()?.ok_or_else(|| JsError::new("the application is busy"))?;
     files::download("drawing.svg", svg.as_bytes(), "image/svg+xml").map_err(|error| JsError::new(&error))
 }
 

@@ -4,7 +4,7 @@
 //! | --- | --- |
 //! | run the application on a canvas | [`start`] |
 //! | what the pen did since the last frame, at the device's own rate | [`pen::drain`] |
-//! | long work beside the page, so that it stays quick | [`JobWorker`], in the worker [`run_job`] |
+//! | long work beside the page, so that it stays quick | [`PageWorker`], made of [`JobWorker`]; in the worker [`run_job`] |
 //! | keep texts of any size from one visit to the next | [`storage`] |
 //! | save a file, open one | [`download`], [`open`] |
 //! | what the page's script asks about the drawing | [`hooks`] |
@@ -12,6 +12,7 @@
 mod app_runner;
 mod files;
 pub mod hooks;
+mod page_worker;
 pub mod pen;
 pub mod storage;
 mod trouble;
@@ -19,6 +20,7 @@ mod worker;
 
 pub use app_runner::start;
 pub use files::{download, open};
+pub use page_worker::PageWorker;
 pub use worker::{JobOutcome, JobWorker, run_job};
 
 use wasm_bindgen::JsValue;

@@ -22,10 +22,11 @@ pub(super) fn set_url(url: String) {
 }
 
 /// Does one job; the worker's script calls this.
+#[must_use]
 #[wasm_bindgen]
 pub fn run_job(job: &str) -> String {
     trouble::report_panics();
-    crate::job::run_encoded_job(job)
+    fairpath_sketch::run_encoded_job(job)
 }
 
 /// What becomes of a job: its answer, or of what the worker died.

@@ -1,6 +1,7 @@
 //! French curves: named shapes that strokes are neatened with, and sets of them.
 
 use fairpath_curve::{Continuity, Spline};
+use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 /// A French curve: a shape whose parts may become parts of a curve (McCrae and Singh 2011, section 3).
@@ -8,7 +9,8 @@ use thiserror::Error;
 /// Lengths are in px of a 100 dpi screen. Where it lies and how it is turned has no meaning, only its curvature along its length and its
 /// corners have. A closed template is gone round without end (section 3.2.2), and each may be turned over and be gone round either way
 /// (section 3.2.1).
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "TemplateRecord")]
 pub struct Template {
     name: String,
     spline: Spline,
@@ -61,7 +63,8 @@ impl Template {
 }
 
 /// French curves that are used together.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "TemplateSetRecord")]
 pub struct TemplateSet {
     name: String,
     templates: Vec<Template>,
@@ -94,6 +97,36 @@ impl TemplateSet {
     #[must_use]
     pub fn templates(&self) -> &[Template] {
         &self.templates
+    }
+}
+
+/// A template before it is checked.
+#[derive(Deserialize)]
+struct TemplateRecord {
+    name: String,
+    spline: Spline,
+}
+
+impl TryFrom<TemplateRecord> for Template {
+    type Error = TemplateError;
+
+    fn try_from(record: TemplateRecord) -> Result<Self, TemplateError> {
+        Self::new(record.name, record.spline)
+    }
+}
+
+/// A set before it is checked.
+#[derive(Deserialize)]
+struct TemplateSetRecord {
+    name: String,
+    templates: Vec<Template>,
+}
+
+impl TryFrom<TemplateSetRecord> for TemplateSet {
+    type Error = TemplateError;
+
+    fn try_from(record: TemplateSetRecord) -> Result<Self, TemplateError> {
+        Self::new(record.name, record.templates)
     }
 }
 

@@ -1,0 +1,347 @@
+//! What hands do on the canvas: events of the pointer come in, deeds of the session and moves of the view go out.
+
+use crate::app::{Shown, Tool};
+use crate::pen::{self, PenPhase, PenSample};
+use crate::view::View;
+use eframe::egui::{self, Event, Key, Modifiers, PointerButton, Pos2, Response, TouchId, TouchPhase, Ui};
+use fairpath_fit::{CurveEnd, Extension};
+use fairpath_sketch::{CurveId, Pin, Session};
+use std::collections::VecDeque;
+
+/// A pointer within this of a curve is on it, points.
+pub(crate) const GRASP: f64 = 8.0;
+
+/// Reach of a corner that is made or smoothed, points.
+const CORNER_REACH: f64 = 30.0;
+
+/// A touch that moves no more than this, points, for no longer than `TAP_SECONDS`, is a tap.
+const TAP_MOVE: f32 = 12.0;
+const TAP_SECONDS: f64 = 0.35;
+
+/// What a pressed pointer does.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+enum Gesture {
+    #[default]
+    None,
+    Draw,
+    Pan,
+    Move {
+        last: Pos2,
+        moved: bool,
+    },
+    Pull {
+        id: CurveId,
+        pin: Option<usize>,
+        share: f64,
+    },
+    Lengthen {
+        id: CurveId,
+        end: CurveEnd,
+    },
+}
+
+/// Fingers on the glass.
+#[derive(Clone, Debug, Default)]
+struct Fingers {
+    down: Vec<(TouchId, Pos2)>,
+    most: usize,
+    began_s: f64,
+    still: bool,
+}
+
+/// What hands are doing.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Hands {
+    gesture: Gesture,
+    fingers: Fingers,
+    /// Pressure of the pen or finger that is down, where it tells.
+    force: Option<f64>,
+    /// What the pen did at its own rate and no stroke has taken yet; always empty where the events of the interface tell everything.
+    pen: VecDeque<PenSample>,
+    /// Whether the stroke in hand consists of these.
+    by_pen: bool,
+}
+
+impl Hands {
+    /// Whether the pointer holds something.
+    pub(crate) fn busy(&self) -> bool {
+        self.gesture != Gesture::None
+    }
+
+    /// Reads the events of a frame in their order. `canvas` is the response of the canvas, which tells whether something lies over it.
+    pub(crate) fn read(
+        &mut self,
+        ui: &Ui,
+        canvas: &Response,
+        session: &mut Session,
+        view: &mut View,
+        tool: Tool,
+        shown: &Shown,
+    ) {
+        let (events, time, space, modifiers) =
+            ui.input(|i| (i.events.clone(), i.time, i.key_down(Key::Space), i.modifiers));
+        self.pen.extend(pen::drain());
+        let over = canvas.contains_pointer();
+        let mut moved = false;
+        for event in &events {
+            match *event {
+                Event::Touch { id, phase, pos, force, .. } => {
+                    self.force = force.map(f64::from);
+                    self.touch(id, phase, pos, time, session);
+                }
+                Event::PointerButton { pos, button, pressed: true, modifiers } if over && !self.busy() => {
+                    self.press(pos, button, space, modifiers, time, session, view, tool, shown);
+                }
+                Event::PointerMoved(pos) => {
+                    self.drag(pos, time, session, view);
+                    moved = true;
+                }
+                Event::PointerButton { pos, pressed: false, .. } if self.busy() => {
+                    self.follow_pen(session, view);
+                    self.release(pos, modifiers, session, view);
+                }
+                Event::PointerGone | Event::WindowFocused(false) => self.cancel(session),
+                _ => {}
+            }
+        }
+        if self.gesture == Gesture::Draw {
+            moved |= self.follow_pen(session, view);
+        } else {
+            self.pen.clear();
+        }
+        if self.gesture == Gesture::Pan && moved {
+            view.pan(ui.input(|i| i.pointer.delta()));
+        }
+        if self.gesture == Gesture::Draw && moved {
+            session.watch_stroke(fresh(modifiers));
+        }
+        self.zoom(ui, over, session, view);
+    }
+
+    /// Drops what is in hand.
+    pub(crate) fn cancel(&mut self, session: &mut Session) {
+        session.drop_stroke();
+        session.end_gesture();
+        self.gesture = Gesture::None;
+    }
+
+    #[expect(clippy::too_many_arguments, reason = "everything that a press can be about")]
+    fn press(
+        &mut self,
+        pos: Pos2,
+        button: PointerButton,
+        space: bool,
+        modifiers: Modifiers,
+        time: f64,
+        session: &mut Session,
+        view: &View,
+        tool: Tool,
+        shown: &Shown,
+    ) {
+        if button == PointerButton::Middle || (button == PointerButton::Primary && space) {
+            self.gesture = Gesture::Pan;
+            return;
+        }
+        if button != PointerButton::Primary {
+            return;
+        }
+        let place = view.to_drawing(pos);
+        let grasp = GRASP * view.pixel_size();
+        let near = session.nearest(place, grasp);
+        match tool {
+            Tool::Draw => {
+                session.begin_stroke(view.pixel_size(), shown.greedy);
+                self.gesture = Gesture::Draw;
+                self.by_pen = self.set_pen_down(session, view);
+                if !self.by_pen {
+                    session.extend_stroke(place, Some(time), self.force);
+                }
+            }
+            Tool::Select => {
+                if let Some((id, end)) = grasped_end(session, view, pos) {
+                    self.gesture = Gesture::Lengthen { id, end };
+                    return;
+                }
+                let Some((id, _)) = near else { return session.select(None, modifiers.shift) };
+                if modifiers.shift || !session.selection().contains(&id) {
+                    session.select(Some(id), modifiers.shift);
+                }
+                if modifiers.alt {
+                    session.duplicate_selected(fairpath_curve::Vec2::ZERO);
+                }
+                self.gesture = Gesture::Move { last: pos, moved: false };
+            }
+            Tool::Pull => {
+                let Some((id, station)) = near else { return session.select(None, false) };
+                session.select(Some(id), false);
+                let Some(curve) = session.selected() else { return };
+                let on = |pin: &Pin| (pin.point - place).hypot() <= grasp;
+                let pin = curve.pins.iter().position(on);
+                let share = pin.map_or(station / curve.spline.length(), |i| curve.pins[i].share);
+                self.gesture = Gesture::Pull { id, pin, share };
+            }
+            Tool::Cut => {
+                if let Some((id, station)) = near {
+                    session.cut(id, station);
+                }
+            }
+            Tool::Corner => {
+                if let Some((id, station)) = near {
+                    session.select(Some(id), false);
+                    session.toggle_corner(id, station, CORNER_REACH * view.pixel_size());
+                }
+            }
+        }
+    }
+
+    /// Begins the stroke where the pen was set down, if it is known; what it did before belongs to no stroke.
+    fn set_pen_down(&mut self, session: &mut Session, view: &View) -> bool {
+        while let Some(sample) = self.pen.pop_front() {
+            if sample.phase == PenPhase::Down {
+                extend(session, view, sample);
+                return true;
+            }
+        }
+        false
+    }
+
+    /// Lets the stroke follow the pen until that is lifted; whether it moved.
+    fn follow_pen(&mut self, session: &mut Session, view: &View) -> bool {
+        let mut moved = false;
+        while self.gesture == Gesture::Draw
+            && let Some(sample) = self.pen.pop_front_if(|sample| sample.phase == PenPhase::Move)
+        {
+            extend(session, view, sample);
+            moved = true;
+        }
+        moved
+    }
+
+    fn drag(&mut self, pos: Pos2, time: f64, session: &mut Session, view: &View) {
+        match &mut self.gesture {
+            Gesture::Draw if self.by_pen => {}
+            Gesture::Draw => session.extend_stroke(view.to_drawing(pos), Some(time), self.force),
+            Gesture::Move { last, moved } => {
+                let by = pos - *last;
+                if *moved || by.length() > 2.0 {
+                    session.move_selected(view.vector(by));
+                    (*last, *moved) = (pos, true);
+                }
+            }
+            Gesture::Pull { id, pin, share } => {
+                *pin = session.pin(*id, *pin, Pin { share: *share, point: view.to_drawing(pos) });
+            }
+            Gesture::None | Gesture::Pan | Gesture::Lengthen { .. } => {}
+        }
+    }
+
+    fn release(&mut self, pos: Pos2, modifiers: Modifiers, session: &mut Session, view: &View) {
+        match self.gesture {
+            Gesture::Draw => {
+                if let Some(tapped) = session.finish_stroke(fresh(modifiers)) {
+                    let near = session.nearest(tapped, GRASP * view.pixel_size());
+                    session.select(near.map(|(id, _)| id), modifiers.shift);
+                }
+            }
+            Gesture::Lengthen { id, end } => lengthen(session, view, id, end, pos),
+            _ => {}
+        }
+        session.end_gesture();
+        self.gesture = Gesture::None;
+    }
+
+    /// Fingers: one draws, two move and turn the paper; a tap of two undoes, of three redoes.
+    fn touch(&mut self, id: TouchId, phase: TouchPhase, pos: Pos2, time: f64, session: &mut Session) {
+        let fingers = &mut self.fingers;
+        match phase {
+            TouchPhase::Start => {
+                if fingers.down.is_empty() {
+                    *fingers = Fingers { began_s: time, still: true, ..Fingers::default() };
+                }
+                fingers.down.push((id, pos));
+                fingers.most = fingers.most.max(fingers.down.len());
+                if fingers.down.len() > 1 {
+                    // A second finger means the paper, not a stroke.
+                    self.cancel(session);
+                }
+            }
+            TouchPhase::Move => {
+                let start = fingers.down.iter().find(|(finger, _)| *finger == id);
+                fingers.still &= start.is_some_and(|(_, start)| start.distance(pos) <= TAP_MOVE);
+            }
+            TouchPhase::End | TouchPhase::Cancel => {
+                fingers.down.retain(|(finger, _)| *finger != id);
+                let tap = fingers.still && time - fingers.began_s <= TAP_SECONDS && phase == TouchPhase::End;
+                if fingers.down.is_empty() && tap {
+                    match fingers.most {
+                        2 => session.undo(),
+                        3 => session.redo(),
+                        _ => {}
+                    }
+                }
+            }
+        }
+    }
+
+    /// The wheel and two fingers.
+    fn zoom(&mut self, ui: &Ui, over: bool, session: &mut Session, view: &mut View) {
+        if let Some(touch) = ui.input(|i| i.multi_touch()) {
+            self.cancel(session);
+            view.pan(touch.translation_delta);
+            view.zoom_at(touch.center_pos, f64::from(touch.zoom_delta));
+            return;
+        }
+        let Some(pos) = ui.input(|i| i.pointer.hover_pos()).filter(|_| over) else { return };
+        let (pinch, scroll) = ui.input(|i| (i.zoom_delta(), i.smooth_scroll_delta()));
+        // A wheel's notch is some 50 points: about a sixth nearer.
+        let wheel = (f64::from(scroll.y) / 320.0).exp2().powf(1.4);
+        let factor = f64::from(pinch) * wheel;
+        if factor != 1.0 {
+            view.zoom_at(pos, factor);
+        }
+        if scroll.x != 0.0 {
+            view.pan(egui::vec2(scroll.x, 0.0));
+        }
+    }
+}
+
+/// Lengthens the stroke in hand to where the pen is.
+fn extend(session: &mut Session, view: &View, sample: PenSample) {
+    let place = view.to_drawing(Pos2::new(sample.x as f32, sample.y as f32));
+    session.extend_stroke(place, Some(sample.time_s), sample.pressure.map(f64::from));
+}
+
+/// Whether a stroke shall become a curve of its own although it is drawn over another.
+fn fresh(modifiers: Modifiers) -> bool {
+    modifiers.alt
+}
+
+/// The end of the selected curve that the pointer is on.
+fn grasped_end(session: &Session, view: &View, pos: Pos2) -> Option<(CurveId, CurveEnd)> {
+    let curve = session.selected().filter(|curve| !curve.spline.is_closed())?;
+    let ends = [(CurveEnd::Start, curve.spline.start_pose()), (CurveEnd::End, curve.spline.end_pose())];
+    let near = |pose: &fairpath_curve::Pose| f64::from(view.to_screen(pose.point).distance(pos)) <= GRASP;
+    ends.iter().find(|(_, pose)| near(pose)).map(|(end, _)| (curve.id, *end))
+}
+
+/// Lengthens a curve towards where the pointer let go of its end, or cuts it back to there.
+fn lengthen(session: &mut Session, view: &View, id: CurveId, end: CurveEnd, pos: Pos2) {
+    let Some(curve) = session.drawing().curve(id) else { return };
+    let place = view.to_drawing(pos);
+    let pose = match end {
+        CurveEnd::Start => curve.spline.start_pose(),
+        CurveEnd::End => curve.spline.end_pose(),
+    };
+    let by = (place - pose.point).hypot();
+    if by < 2.0 * view.pixel_size() {
+        return;
+    }
+    let nearest = curve.spline.nearest(place);
+    let station = curve.spline.station(nearest.segment, nearest.s);
+    let inside = station > 1e-6 * curve.spline.length() && station < (1.0 - 1e-6) * curve.spline.length();
+    if inside {
+        session.shorten(id, end, station);
+    } else {
+        session.extend(id, end, by, Extension::Curvature);
+    }
+}

@@ -1,0 +1,76 @@
+//! The canvas: where strokes are drawn and curves are seen.
+
+mod grid;
+mod hands;
+mod paint;
+mod shapes;
+
+pub(crate) use hands::GRASP;
+
+use crate::app::{Shown, Tool};
+use crate::theme::Palette;
+use crate::view::View;
+use eframe::egui::{self, CursorIcon, Rect, Role, Sense, Ui, WidgetInfo};
+use fairpath_sketch::{CurveId, Session};
+use hands::Hands;
+use paint::Brush;
+use shapes::Shapes;
+
+/// What the canvas remembers from one frame to the next.
+#[derive(Default)]
+pub(crate) struct Canvas {
+    hands: Hands,
+    shapes: Shapes,
+    /// The place of a curve under the pointer, here or in the plot: the curve and a station.
+    pub(crate) hovered: Option<(CurveId, f64)>,
+}
+
+impl Canvas {
+    /// Drops what is in hand.
+    pub(crate) fn cancel(&mut self, session: &mut Session) {
+        self.hands.cancel(session);
+    }
+
+    /// Shows the canvas in all of `ui` and does what hands do on it.
+    pub(crate) fn show(&mut self, ui: &mut Ui, session: &mut Session, view: &mut View, tool: Tool, shown: &Shown) {
+        let rect = ui.max_rect();
+        view.on(rect);
+        let response = ui.interact(rect, ui.scope_id().with("canvas"), Sense::click_and_drag());
+        response.widget_info(|| WidgetInfo::labeled(Role::Canvas, true, "Canvas"));
+        self.hands.read(ui, &response, session, view, tool, shown);
+        if response.contains_pointer() {
+            ui.ctx().set_cursor_icon(self.cursor(ui, tool));
+        }
+        if let Some(pos) = response.hover_pos().filter(|_| !self.hands.busy() && response.contains_pointer()) {
+            let place = view.to_drawing(pos);
+            self.hovered = session.nearest(place, GRASP * view.pixel_size());
+        }
+        self.paint(ui, rect, session, view, shown);
+    }
+
+    fn cursor(&self, ui: &Ui, tool: Tool) -> CursorIcon {
+        match tool {
+            _ if ui.input(|i| i.key_down(egui::Key::Space)) => CursorIcon::Grab,
+            Tool::Draw => CursorIcon::Crosshair,
+            Tool::Select if self.hovered.is_some() => CursorIcon::Move,
+            Tool::Pull if self.hovered.is_some() => CursorIcon::Grab,
+            Tool::Cut | Tool::Corner if self.hovered.is_some() => CursorIcon::Crosshair,
+            _ => CursorIcon::Default,
+        }
+    }
+
+    fn paint(&mut self, ui: &Ui, rect: Rect, session: &Session, view: &View, shown: &Shown) {
+        let palette = Palette::of(ui.ctx().theme());
+        let painter = ui.painter_at(rect);
+        let brush = Brush { painter: &painter, view, shown, palette };
+        painter.rect_filled(rect, 0.0, palette.paper);
+        if shown.grid {
+            brush.grid(ui.ctx().pixels_per_point());
+        }
+        let hovered = self.hovered.and_then(|(id, station)| Some((&**session.drawing().curve(id)?, station)));
+        brush.session(session, &mut self.shapes, hovered);
+        if shown.grid {
+            brush.scale_bar(session.drawing().unit, rect.right_bottom() - egui::vec2(16.0, 14.0));
+        }
+    }
+}

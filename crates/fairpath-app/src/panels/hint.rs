@@ -1,0 +1,30 @@
+//! What is said to a person: the hint of a first start, and what did not work.
+
+use super::{MARGIN, float};
+use crate::app::App;
+use eframe::egui::{Align2, RichText, Ui, vec2};
+
+/// How long something is shown, seconds.
+const SHOWN_S: f64 = 6.0;
+
+/// Shows the hint and what is to be said.
+pub(crate) fn show(app: &mut App, ui: &Ui) {
+    if app.panels.hint && (app.session.hand().is_some() || app.session.history().undoable().is_some()) {
+        app.panels.hint = false;
+    }
+    let now = ui.input(|i| i.time);
+    if let Some((text, since)) = &mut app.panels.notice {
+        let since = *since.get_or_insert(now);
+        float(ui, "notice", Align2::CENTER_TOP, vec2(0.0, MARGIN), |ui| ui.label(text.as_str()));
+        if now - since > SHOWN_S {
+            app.panels.notice = None;
+        } else {
+            ui.ctx().request_repaint_after_secs(0.5);
+        }
+    } else if app.panels.hint {
+        float(ui, "hint", Align2::CENTER_TOP, vec2(0.0, MARGIN), |ui| {
+            ui.label("Draw anywhere. Draw near a curve to change it.");
+            ui.label(RichText::new("Wheel zooms, space-drag pans, ? shows all shortcuts.").weak().small());
+        });
+    }
+}

@@ -1,0 +1,61 @@
+//! The curvature along the selected curve, under the canvas; the place under the pointer is the same in both.
+
+use crate::app::App;
+use crate::theme::Palette;
+use eframe::egui::{Panel, Ui};
+use egui_plot::{HLine, Line, Plot, PlotPoints, VLine};
+use fairpath_curve::Spline;
+
+/// Points of a segment's curvature in the plot: two, since it is linear.
+fn profile(spline: &Spline) -> Vec<[f64; 2]> {
+    let mut station = 0.0;
+    let mut points = Vec::with_capacity(2 * spline.segments().len());
+    for segment in spline.segments() {
+        points.push([station, segment.kappa0]);
+        station += segment.length;
+        points.push([station, segment.kappa1]);
+    }
+    points
+}
+
+/// Shows the plot if it is asked for.
+pub(crate) fn show(app: &mut App, ui: &mut Ui) {
+    if !app.shown.plot {
+        return;
+    }
+    let palette = Palette::of(ui.ctx().theme());
+    Panel::bottom("plot").resizable(true).default_size(150.0).min_size(90.0).show(ui, |ui| {
+        let Some(curve) = app.session.selected().or_else(|| app.session.drawing().curves().last()).cloned() else {
+            ui.centered_and_justified(|ui| ui.weak("Select a curve to see its curvature."));
+            return;
+        };
+        let marked = app.canvas.hovered.filter(|(id, _)| *id == curve.id).map(|(_, station)| station);
+        let length = curve.spline.length();
+        let plot = Plot::new(("curvature", curve.id.0))
+            .allow_scroll(false)
+            .allow_drag(false)
+            .allow_boxed_zoom(false)
+            .show_background(false)
+            .include_x(0.0)
+            .include_x(length)
+            .x_axis_label("arc length")
+            .y_axis_label("curvature");
+        let shown = plot.show(ui, |plot| {
+            plot.hline(HLine::new("zero", 0.0).color(palette.grid_strong));
+            plot.line(
+                Line::new(curve.name.as_str(), PlotPoints::from(profile(&curve.spline)))
+                    .color(palette.comb_hull)
+                    .width(1.75),
+            );
+            if let Some(station) = marked {
+                plot.vline(VLine::new("here", station).color(palette.accent));
+            }
+            plot.pointer_coordinate()
+        });
+        if shown.response.hovered()
+            && let Some(at) = shown.inner
+        {
+            app.canvas.hovered = Some((curve.id, at.x.clamp(0.0, length)));
+        }
+    });
+}

@@ -1,0 +1,114 @@
+//! The keyboard: one table for what keys do and for the list that shows it.
+
+use crate::app::{App, Ink, Tool};
+use eframe::egui::{Align2, Grid, Key, KeyboardShortcut, Modifiers, Ui, Window};
+
+/// What keys can do.
+type Deed = fn(&mut App);
+
+const NONE: Modifiers = Modifiers::NONE;
+const COMMAND: Modifiers = Modifiers::COMMAND;
+const COMMAND_SHIFT: Modifiers = Modifiers { shift: true, ..Modifiers::COMMAND };
+
+/// Modifiers, key, what is said of it, and what it does. Of two rows with one key the one with more modifiers comes first.
+const TABLE: &[(Modifiers, Key, &str, Deed)] = &[
+    (COMMAND_SHIFT, Key::Z, "Redo", |app| app.session.redo()),
+    (COMMAND, Key::Z, "Undo", |app| app.session.undo()),
+    (COMMAND, Key::Y, "Redo", |app| app.session.redo()),
+    (COMMAND, Key::A, "Select all", |app| app.session.select_all()),
+    (COMMAND, Key::D, "Duplicate", |app| {
+        let by = 16.0 * app.view.pixel_size();
+        app.session.duplicate_selected(fairpath_curve::Vec2::new(by, by));
+    }),
+    (COMMAND, Key::Num0, "Show all", App::fit_view),
+    (NONE, Key::Escape, "Drop the stroke in hand", |app| app.canvas.cancel(&mut app.session)),
+    (NONE, Key::Delete, "Delete", |app| app.session.delete_selected()),
+    (NONE, Key::Backspace, "Delete", |app| app.session.delete_selected()),
+    (NONE, Key::P, "Draw", |app| app.tool = Tool::Draw),
+    (NONE, Key::V, "Select and move", |app| app.tool = Tool::Select),
+    (NONE, Key::B, "Pull through a point", |app| app.tool = Tool::Pull),
+    (NONE, Key::C, "Cut", |app| app.tool = Tool::Cut),
+    (NONE, Key::K, "Corner or smooth", |app| app.tool = Tool::Corner),
+    (NONE, Key::J, "Join two selected curves", App::join_selected),
+    (NONE, Key::O, "Close or open", App::toggle_closed),
+    (NONE, Key::Num1, "Colours", |app| {
+        app.shown.ink = if app.shown.ink == Ink::Kinds { Ink::Plain } else { Ink::Kinds };
+    }),
+    (NONE, Key::Num2, "Strokes as drawn", |app| app.shown.ghost ^= true),
+    (NONE, Key::Num3, "Curvature comb", |app| app.shown.comb ^= true),
+    (NONE, Key::Num4, "Curvature plot", |app| app.shown.plot ^= true),
+    (NONE, Key::Num5, "Grid", |app| app.shown.grid ^= true),
+    (NONE, Key::Num6, "Figures", |app| app.shown.inspector ^= true),
+    (NONE, Key::Questionmark, "Shortcuts", |app| app.panels.shortcuts ^= true),
+];
+
+/// What hands do besides.
+const GESTURES: &[(&str, &str)] = &[
+    ("Alt while drawing", "A new curve, even near another"),
+    ("Wheel, pinch", "Zoom"),
+    ("Space-drag, middle-drag", "Pan"),
+    ("Drag an end", "Lengthen or shorten"),
+    ("Alt-drag", "Duplicate"),
+    ("Tap of two, three fingers", "Undo, redo"),
+];
+
+/// Does what keys ask for.
+pub(crate) fn read(app: &mut App, ui: &Ui) {
+    if ui.ctx().egui_wants_keyboard_input() {
+        return;
+    }
+    for &(modifiers, key, _, deed) in TABLE {
+        let shortcut = KeyboardShortcut::new(modifiers, key);
+        let pressed = if key == Key::Questionmark {
+            ui.input_mut(|i| i.key_pressed(key))
+        } else {
+            ui.input_mut(|i| i.consume_shortcut(&shortcut))
+        };
+        if pressed {
+            deed(app);
+        }
+    }
+}
+
+/// Shows the list.
+pub(crate) fn show(app: &mut App, ui: &Ui) {
+    let mut open = app.panels.shortcuts;
+    Window::new("Shortcuts")
+        .open(&mut open)
+        .anchor(Align2::CENTER_CENTER, [0.0, 0.0])
+        .resizable(false)
+        .collapsible(false)
+        .show(ui.ctx(), |ui| {
+            Grid::new("shortcuts").num_columns(2).spacing([28.0, 4.0]).show(ui, |ui| {
+                let keys = TABLE.iter().map(|&(modifiers, key, name, _)| {
+                    (ui.ctx().format_shortcut(&KeyboardShortcut::new(modifiers, key)), name)
+                });
+                let keys: Vec<(String, &str)> = keys.collect();
+                let hands = GESTURES.iter().map(|(gesture, name)| ((*gesture).to_owned(), *name));
+                for (shortcut, name) in keys.into_iter().chain(hands) {
+                    ui.weak(shortcut);
+                    ui.label(name);
+                    ui.end_row();
+                }
+            });
+        });
+    app.panels.shortcuts = open;
+}
+
+impl App {
+    fn join_selected(&mut self) {
+        let ids: Vec<_> = self.session.selection().iter().copied().collect();
+        match ids[..] {
+            [a, b] => self.session.join(a, b, 24.0 * self.view.pixel_size()),
+            _ => self.panels.say("Select two open curves to join them."),
+        }
+    }
+
+    fn toggle_closed(&mut self) {
+        let Some(curve) = self.session.selected() else {
+            return self.panels.say("Select a curve to close or open it.");
+        };
+        let (id, closed) = (curve.id, curve.spline.is_closed());
+        if closed { self.session.open_curve(id) } else { self.session.close(id, 24.0 * self.view.pixel_size()) }
+    }
+}

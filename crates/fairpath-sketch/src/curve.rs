@@ -1,0 +1,101 @@
+//! A curve of a drawing with the stroke that it comes from.
+
+use crate::carry::carried;
+use crate::method::Settings;
+use crate::neatening::Neatening;
+use fairpath_curve::{Point, Similarity, Spline, Vec2};
+use fairpath_fit::{Closing, Constraint, Fit, FitError, Report, Stroke, Warning, measure};
+use fairpath_io::UsedTemplates;
+use serde::{Deserialize, Serialize};
+
+/// Names a curve for as long as the drawing is open; never used twice.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+pub struct CurveId(pub u64);
+
+/// A place through which a curve is held (McCrae and Singh 2008, section 5.3).
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Pin {
+    /// Which place of the curve was taken, as a share of its length.
+    pub share: f64,
+    /// Where it is held, in the drawing's unit.
+    pub point: Point,
+}
+
+impl Pin {
+    /// The same for a curve of that length.
+    #[must_use]
+    pub fn constraint(&self, length: f64) -> Constraint {
+        Constraint::moved(self.share * length, self.point)
+    }
+}
+
+/// A curve of a drawing.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Curve {
+    /// Its identity.
+    pub id: CurveId,
+    /// Its name in files.
+    pub name: String,
+    /// What it is fitted to: the stroke as it was drawn, and where the curve was changed since, the change.
+    pub stroke: Stroke,
+    /// How it is fitted.
+    pub neatening: Neatening,
+    /// Places through which it is held.
+    pub pins: Vec<Pin>,
+    /// Whether the curve is what stroke, neatening and pins give, or an edit of that; else it is to be fitted.
+    pub fitted: bool,
+    /// The curve.
+    pub spline: Spline,
+    /// Figures of the last fit.
+    pub report: Report,
+    /// What the fit had to say.
+    pub warnings: Vec<Warning>,
+    /// Which French curves it is made of.
+    pub templates: Option<UsedTemplates>,
+}
+
+impl Curve {
+    /// A curve that is to be fitted to a stroke; until then the stroke itself stands for it.
+    ///
+    /// # Errors
+    /// When the stroke is a dot, or has coordinates that are not finite.
+    pub fn drawn(id: CurveId, stroke: Stroke, neatening: Neatening) -> Result<Self, FitError> {
+        let (raw, _) = Settings::Raw.fit(&stroke, None)?;
+        let name = stroke.name.clone();
+        let Fit { spline, report, warnings } = raw;
+        let (pins, templates) = (Vec::new(), None);
+        Ok(Self { id, name, stroke, neatening, pins, fitted: false, spline, report, warnings, templates })
+    }
+
+    /// The curve with another shape, which an edit gave it. `drawn` is what was drawn for it, if anything; see [`carried`].
+    #[must_use]
+    pub fn edited(&self, spline: Spline, drawn: &[Point]) -> Self {
+        let stroke = carried(&self.stroke, &self.spline, &spline, drawn, self.neatening.pixel_size);
+        let report = measure(&spline, &stroke, self.neatening.pixel_size);
+        let closed = if spline.is_closed() { Closing::Yes } else { Closing::No };
+        Self {
+            stroke,
+            spline,
+            report,
+            neatening: Neatening { closed, ..self.neatening.clone() },
+            warnings: Vec::new(),
+            templates: None,
+            fitted: true,
+            ..self.clone()
+        }
+    }
+
+    /// The curve elsewhere.
+    #[must_use]
+    pub fn moved(&self, by: Vec2) -> Self {
+        let mut moved = self.clone();
+        moved.spline = self.spline.transformed(&Similarity { translation: by, ..Similarity::IDENTITY });
+        moved.stroke.points.iter_mut().for_each(|point| *point += by);
+        moved.pins.iter_mut().for_each(|pin| pin.point += by);
+        for piece in moved.templates.iter_mut().flat_map(|used| &mut used.pieces) {
+            piece.transform.translation += by;
+        }
+        moved
+    }
+}

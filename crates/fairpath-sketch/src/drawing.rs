@@ -1,0 +1,90 @@
+//! A drawing: curves in their order, from the back to the front.
+
+use crate::background::Background;
+use crate::curve::{Curve, CurveId};
+use fairpath_fit::TemplateSet;
+use fairpath_io::{Unit, YAxis};
+use std::sync::Arc;
+
+/// What a person has drawn. A copy shares all curves with the original, so that keeping many states costs little.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Drawing {
+    /// Unit of all coordinates.
+    pub unit: Unit,
+    /// Where the y axis points; a label.
+    pub y: YAxis,
+    curves: Vec<Arc<Curve>>,
+    /// Sets of French curves of this drawing's own.
+    pub template_sets: Vec<Arc<TemplateSet>>,
+    /// A picture to trace over.
+    pub background: Option<Arc<Background>>,
+    named: u64,
+}
+
+impl Drawing {
+    /// An empty drawing in that unit.
+    #[must_use]
+    pub fn new(unit: Unit, y: YAxis) -> Self {
+        Self { unit, y, ..Self::default() }
+    }
+
+    /// The curves, from the back to the front.
+    #[must_use]
+    pub fn curves(&self) -> &[Arc<Curve>] {
+        &self.curves
+    }
+
+    /// The curve of that identity.
+    #[must_use]
+    pub fn curve(&self, id: CurveId) -> Option<&Arc<Curve>> {
+        self.curves.iter().find(|curve| curve.id == id)
+    }
+
+    /// An identity that no curve of this drawing ever had.
+    pub fn new_id(&mut self) -> CurveId {
+        self.named += 1;
+        CurveId(self.named)
+    }
+
+    /// A name that no curve has yet: the stem with a number.
+    #[must_use]
+    pub fn free_name(&self, stem: &str) -> String {
+        let stem = stem.trim_end_matches(|c: char| c.is_ascii_digit()).trim_end();
+        let taken = |name: &String| self.curves.iter().any(|curve| curve.name == *name);
+        let mut names = (self.curves.len() + 1..).map(|number| format!("{stem} {number}"));
+        names.find(|name| !taken(name)).unwrap_or_else(|| stem.to_owned())
+    }
+
+    /// Puts a curve in front, or in the place of the one that has its identity.
+    pub fn put(&mut self, curve: Curve) {
+        self.named = self.named.max(curve.id.0);
+        match self.curves.iter_mut().find(|other| other.id == curve.id) {
+            Some(place) => *place = Arc::new(curve),
+            None => self.curves.push(Arc::new(curve)),
+        }
+    }
+
+    /// Puts curves in the place of one, or in front if there is none of that identity.
+    pub fn replace(&mut self, id: CurveId, by: Vec<Curve>) {
+        let at = self.curves.iter().position(|curve| curve.id == id);
+        self.named = by.iter().map(|curve| curve.id.0).fold(self.named, u64::max);
+        let by = by.into_iter().map(Arc::new);
+        match at {
+            Some(i) => drop(self.curves.splice(i..=i, by)),
+            None => self.curves.extend(by),
+        }
+    }
+
+    /// Takes a curve out.
+    pub fn remove(&mut self, id: CurveId) -> Option<Arc<Curve>> {
+        let at = self.curves.iter().position(|curve| curve.id == id)?;
+        Some(self.curves.remove(at))
+    }
+
+    /// The set of French curves of that name: the drawing's own, or one that comes along.
+    #[must_use]
+    pub fn template_set(&self, name: &str) -> Option<Arc<TemplateSet>> {
+        let own = self.template_sets.iter().find(|set| set.name() == name).cloned();
+        own.or_else(|| fairpath_io::shipped_templates(name).map(Arc::new))
+    }
+}

@@ -1,0 +1,154 @@
+//! Edits by hand: each takes places of curves and changes the drawing as one step that can be undone.
+
+use crate::curve::{Curve, CurveId};
+use crate::desk::Slot;
+use crate::session::Session;
+use fairpath_curve::{Continuity, Spline};
+use fairpath_fit::{CurveEnd, Extension, Stroke, close, cut, extend, join, make_corner, smooth_corner};
+
+impl Session {
+    /// Cuts a curve at a station: an open one in two, a closed one open.
+    pub fn cut(&mut self, id: CurveId, station: f64) {
+        let Some(curve) = self.drawing().curve(id).cloned() else { return };
+        let parts = match cut(&curve.spline, &[station]) {
+            Ok(parts) => parts,
+            Err(error) => return self.report(error),
+        };
+        self.desk.drop_wishes(Slot::Curve(id));
+        self.selection = self.history.act("Cut", |drawing| {
+            let part = |(i, spline): (usize, Spline)| {
+                let mut part = curve.edited(spline, &[]);
+                if i > 0 {
+                    part.id = drawing.new_id();
+                    part.name = drawing.free_name(&curve.name);
+                }
+                part.pins.clear();
+                part
+            };
+            let parts: Vec<Curve> = parts.into_iter().enumerate().map(part).collect();
+            let ids = parts.iter().map(|part| part.id).collect();
+            drawing.replace(id, parts);
+            ids
+        });
+    }
+
+    /// Joins two open curves at their nearest ends, smoothly, cutting both back by up to `reach`.
+    pub fn join(&mut self, a: CurveId, b: CurveId, reach: f64) {
+        let (Some(first), Some(second)) = (self.drawing().curve(a).cloned(), self.drawing().curve(b).cloned()) else {
+            return;
+        };
+        let [end, with_end] = nearest_ends(&first.spline, &second.spline);
+        let reach = reach.min(0.3 * first.spline.length()).min(0.3 * second.spline.length());
+        let joined = match join(&first.spline, end, &second.spline, with_end, Continuity::G2, reach) {
+            Ok(joined) => joined,
+            Err(error) => return self.report(error),
+        };
+        let stroke = joined_stroke(&first, end, &second, with_end);
+        self.desk.drop_wishes(Slot::Curve(a));
+        self.desk.drop_wishes(Slot::Curve(b));
+        self.history.act("Join", |drawing| {
+            let both = Curve { stroke, ..(*first).clone() };
+            drawing.put(both.edited(joined, &[]));
+            drawing.remove(b);
+        });
+        self.select(Some(a), false);
+    }
+
+    /// Closes an open curve, smoothly, cutting both ends back by up to `reach`.
+    pub fn close(&mut self, id: CurveId, reach: f64) {
+        let Some(curve) = self.drawing().curve(id) else { return };
+        match close(&curve.spline, Continuity::G2, reach.min(0.2 * curve.spline.length())) {
+            Ok(closed) => self.reshape("Close", id, closed),
+            Err(error) => self.report(error),
+        }
+    }
+
+    /// Opens a closed curve where it begins.
+    pub fn open_curve(&mut self, id: CurveId) {
+        self.cut(id, 0.0);
+    }
+
+    /// Lengthens an open curve beyond an end.
+    pub fn extend(&mut self, id: CurveId, end: CurveEnd, length: f64, how: Extension) {
+        let Some(curve) = self.drawing().curve(id) else { return };
+        match extend(&curve.spline, end, length, how) {
+            Ok(longer) => self.reshape("Extend", id, longer),
+            Err(error) => self.report(error),
+        }
+    }
+
+    /// Cuts an open curve back from one of its ends to a station.
+    pub fn shorten(&mut self, id: CurveId, end: CurveEnd, station: f64) {
+        let Some(curve) = self.drawing().curve(id) else { return };
+        match cut(&curve.spline, &[station]) {
+            Ok(mut parts) if parts.len() == 2 => {
+                let rest = parts.swap_remove(if end == CurveEnd::Start { 1 } else { 0 });
+                self.reshape("Shorten", id, rest);
+            }
+            Ok(_) => {}
+            Err(error) => self.report(error),
+        }
+    }
+
+    /// Makes a corner of a smooth place of a curve, or smooths the corner that is within `reach` of it.
+    pub fn toggle_corner(&mut self, id: CurveId, station: f64, reach: f64) {
+        let Some(curve) = self.drawing().curve(id) else { return };
+        let spline = &curve.spline;
+        let made = match corner_near(spline, station, reach) {
+            Some(join) => smooth_corner(spline, join, room(spline, join_station(spline, join), reach)),
+            None => make_corner(spline, station, room(spline, station, reach)),
+        };
+        match made {
+            Ok(made) => self.reshape("Corner", id, made),
+            Err(error) => self.report(error),
+        }
+    }
+}
+
+/// The ends at which two open curves are nearest to each other.
+fn nearest_ends(a: &Spline, b: &Spline) -> [CurveEnd; 2] {
+    let ends = [CurveEnd::End, CurveEnd::Start];
+    let place = |curve: &Spline, end| match end {
+        CurveEnd::Start => curve.start_pose().point,
+        CurveEnd::End => curve.end_pose().point,
+    };
+    let pairs = ends.into_iter().flat_map(|end| ends.map(|with| [end, with]));
+    let distance = |pair: &[CurveEnd; 2]| (place(a, pair[0]) - place(b, pair[1])).hypot();
+    pairs.min_by(|p, q| distance(p).total_cmp(&distance(q))).unwrap_or([CurveEnd::End, CurveEnd::Start])
+}
+
+/// The strokes of two curves that are joined, one after the other.
+fn joined_stroke(a: &Curve, end: CurveEnd, b: &Curve, with_end: CurveEnd) -> Stroke {
+    let mut points = a.stroke.points.clone();
+    if end == CurveEnd::Start {
+        points.reverse();
+    }
+    let others = b.stroke.points.iter().copied();
+    match with_end {
+        CurveEnd::Start => points.extend(others),
+        CurveEnd::End => points.extend(others.rev()),
+    }
+    Stroke::new(a.stroke.name.clone(), points)
+}
+
+/// The station of a join.
+fn join_station(spline: &Spline, join: usize) -> f64 {
+    spline.segments()[..=join].iter().map(|segment| segment.length).sum()
+}
+
+/// The corner nearest to a station, no further than `reach`.
+fn corner_near(spline: &Spline, station: f64, reach: f64) -> Option<usize> {
+    let corners = (0..spline.joins().len()).filter(|&join| spline.joins()[join] == Continuity::G0);
+    let away = |join: &usize| {
+        let straight = (join_station(spline, *join) - station).abs();
+        if spline.is_closed() { straight.min(spline.length() - straight) } else { straight }
+    };
+    corners.filter(|join| away(join) <= reach).min_by(|a, b| away(a).total_cmp(&away(b)))
+}
+
+/// As much of a reach as a curve has room for on both sides of a station.
+fn room(spline: &Spline, station: f64, reach: f64) -> f64 {
+    let length = spline.length();
+    let most = if spline.is_closed() { 0.25 * length } else { 0.9 * station.min(length - station) };
+    reach.min(most)
+}

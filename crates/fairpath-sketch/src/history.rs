@@ -1,0 +1,126 @@
+//! Undo and redo: every state of a drawing with the name of what led to it.
+//!
+//! A state shares with its neighbours all curves that did not change, so it costs a pointer for each curve; undoing is exact
+//! because nothing is computed backwards.
+
+use crate::drawing::Drawing;
+
+/// Most states that are kept.
+const DEEPEST: usize = 1000;
+
+/// A state and what was done to get there.
+#[derive(Clone, Debug)]
+struct State {
+    drawing: Drawing,
+    /// What a person would call it, such as `Draw`.
+    deed: String,
+}
+
+/// A drawing with its past, and what was undone.
+#[derive(Clone, Debug, Default)]
+pub struct History {
+    present: Drawing,
+    past: Vec<State>,
+    future: Vec<State>,
+    /// Grows with every change, undone ones too.
+    version: u64,
+    /// Deeds of one gesture, such as the moves of a slider, are one step; this names the gesture that goes on.
+    gesture: Option<String>,
+}
+
+impl History {
+    /// A history that begins with this drawing.
+    #[must_use]
+    pub fn new(drawing: Drawing) -> Self {
+        Self { present: drawing, ..Self::default() }
+    }
+
+    /// The drawing as it is.
+    #[must_use]
+    pub fn drawing(&self) -> &Drawing {
+        &self.present
+    }
+
+    /// Grows whenever the drawing changes.
+    #[must_use]
+    pub fn version(&self) -> u64 {
+        self.version
+    }
+
+    /// Does something to the drawing that can be undone.
+    pub fn act<R>(&mut self, deed: &str, change: impl FnOnce(&mut Drawing) -> R) -> R {
+        self.gesture = None;
+        self.step(deed, change)
+    }
+
+    /// As [`act`](Self::act); what is done under the same name one after the other is one step.
+    pub fn act_on<R>(&mut self, deed: &str, change: impl FnOnce(&mut Drawing) -> R) -> R {
+        if self.gesture.as_deref() == Some(deed) {
+            return self.amend(change);
+        }
+        let result = self.step(deed, change);
+        self.gesture = Some(deed.to_owned());
+        result
+    }
+
+    /// The next deed is a step of its own even if it has the name of the last one.
+    pub fn end_gesture(&mut self) {
+        self.gesture = None;
+    }
+
+    /// Changes the present without a step of its own: for what follows from the last deed, such as the curve that a stroke becomes.
+    pub fn amend<R>(&mut self, change: impl FnOnce(&mut Drawing) -> R) -> R {
+        self.version += 1;
+        change(&mut self.present)
+    }
+
+    fn step<R>(&mut self, deed: &str, change: impl FnOnce(&mut Drawing) -> R) -> R {
+        let before = self.present.clone();
+        let result = change(&mut self.present);
+        if self.present != before {
+            self.version += 1;
+            self.past.push(State { drawing: before, deed: deed.to_owned() });
+            if self.past.len() > DEEPEST {
+                self.past.remove(0);
+            }
+            self.future.clear();
+        }
+        result
+    }
+
+    /// What would be undone.
+    #[must_use]
+    pub fn undoable(&self) -> Option<&str> {
+        self.past.last().map(|state| state.deed.as_str())
+    }
+
+    /// What would be done again.
+    #[must_use]
+    pub fn redoable(&self) -> Option<&str> {
+        self.future.last().map(|state| state.deed.as_str())
+    }
+
+    /// Undoes the last deed; false if there is none.
+    pub fn undo(&mut self) -> bool {
+        Self::turn(&mut self.present, &mut self.past, &mut self.future, &mut self.version, &mut self.gesture)
+    }
+
+    /// Does the last undone deed again; false if there is none.
+    pub fn redo(&mut self) -> bool {
+        Self::turn(&mut self.present, &mut self.future, &mut self.past, &mut self.version, &mut self.gesture)
+    }
+
+    fn turn(
+        present: &mut Drawing,
+        from: &mut Vec<State>,
+        to: &mut Vec<State>,
+        version: &mut u64,
+        gesture: &mut Option<String>,
+    ) -> bool {
+        let Some(State { drawing, deed }) = from.pop() else { return false };
+        to.push(State { drawing: std::mem::replace(present, drawing), deed });
+        *version += 1;
+        *gesture = None;
+        true
+    }
+}

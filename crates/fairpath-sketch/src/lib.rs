@@ -1,0 +1,41 @@
+//! A drawing of fair curves, without a window: what a sketching application holds and does, as plain values and functions.
+//!
+//! | to … | use |
+//! | --- | --- |
+//! | choose a method and its options by name | [`Method`], [`Settings`], [`Neatening`] |
+//! | hold curves with the strokes that they come from | [`Drawing`], [`Curve`] |
+//! | undo and redo | [`History`] |
+//! | open and save, import, export | [`decode_drawing`], [`encode_drawing`], [`import`], [`splines_of`], [`strokes_of`] |
+//! | work on a drawing: draw, draw over, select, edit | [`Session`] |
+//! | fit away from the interface | [`Job`], [`Answer`], [`run`], and as text [`run_encoded_job`] |
+//! | decide what to fit next | [`Desk`] |
+//!
+//! Nothing here knows of pixels on a screen, reads a clock or starts a thread.
+
+mod background;
+mod carry;
+mod curve;
+mod desk;
+mod drawing;
+mod edits;
+mod fairness;
+mod file;
+mod hand;
+mod history;
+mod job;
+mod method;
+mod neatening;
+mod session;
+
+pub use background::Background;
+pub use carry::carried;
+pub use curve::{Curve, CurveId, Pin};
+pub use desk::{Desk, Slot, Ticket};
+pub use drawing::Drawing;
+pub use file::{DrawingError, decode_drawing, encode_drawing, import, is_drawing, splines_of, strokes_of};
+pub use hand::{Hand, Over};
+pub use history::History;
+pub use job::{Answer, Fitted, Job, Trouble, run, run_encoded_job};
+pub use method::{Method, Settings};
+pub use neatening::{Neatening, SettingError};
+pub use session::Session;
