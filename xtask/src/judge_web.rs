@@ -68,7 +68,7 @@ fn judge(page: &Path, browser: &Path, packages: &Path) -> Result<Outcome> {
         bail!("the page does not do in the browser what it must; pictures are in {}", out.display());
     }
     let seen: Value = serde_json::from_str(&fs::read_to_string(out.join("seen.json"))?)?;
-    let curves = same_curves(&out)?;
+    let curves = same_curves(&out, &seen["state"]["pixel_size"])?;
     let ready_ms = seen["readyMs"].as_f64().context("the browser measured no time")?;
     let hint =
         if ready_ms > WANTED_READY_MS { format!(", more than the {WANTED_READY_MS} ms wanted") } else { String::new() };
@@ -77,14 +77,15 @@ fn judge(page: &Path, browser: &Path, packages: &Path) -> Result<Outcome> {
     )))
 }
 
-/// The curves of the saved drawing and those of the command line for the recorded strokes: the same to the bit. How many there are.
-fn same_curves(out: &Path) -> Result<usize> {
+/// The curves of the saved drawing and those of the command line for the recorded strokes, drawn with pixels of that size: the same to the
+/// bit. How many there are.
+fn same_curves(out: &Path, pixel_size: &Value) -> Result<usize> {
     let (saved, fitted) = (out.join("saved.json"), out.join("fitted.json"));
     let run = |args: &[&str], from: &Path, to: &Path| {
         process::run(Command::new(tree::fairpath()?).args(args).arg(from).arg("-o").arg(to))
     };
     run(&["convert"], &out.join("saved.svg"), &saved)?;
-    run(&["fit", "--no-times"], &out.join("recorded.json"), &fitted)?;
+    run(&["fit", "--no-times", "--pixel-size", &pixel_size.to_string()], &out.join("recorded.json"), &fitted)?;
     let (saved, fitted) = (curves(&saved)?, curves(&fitted)?);
     compare(&saved, &fitted)?;
     // A comparison that nothing can fail proves nothing.

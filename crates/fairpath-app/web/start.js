@@ -95,5 +95,7 @@ window.addEventListener("error", (event) => {
 element("canvas").addEventListener("webglcontextlost", () =>
   tellOnce("The graphics were taken away.", `The browser or the graphics driver has restarted. ${kept}`, "WebGL context lost"),
 );
+// "Select all" selects the canvas too, as the browser sees it, and the next stroke would drag it away.
+element("canvas").addEventListener("dragstart", (event) => event.preventDefault());
 element("reload").addEventListener("click", () => location.reload());
 start();

@@ -64,6 +64,18 @@ async function openedWell(page, url) {
   return opened;
 }
 
+/** The page with an empty drawing: what it begins with is deleted, as a person would. */
+async function openedBlank(page) {
+  const opened = await openedWell(page);
+  const begun = await state(page);
+  must(begun.strokes > 0, "there is nothing to see at a first start");
+  await settled(page, begun.strokes);
+  await page.keyboard.press("Control+a");
+  await page.keyboard.press("Delete");
+  await settled(page, 0);
+  return opened;
+}
+
 /** Draws one stroke with the mouse, every point an event of its own, all sent at once as a quick device does. */
 async function draw(page, points) {
   await page.mouse.move(...points[0]);
@@ -86,8 +98,8 @@ async function settled(page, strokes) {
   return state(page);
 }
 
-/** How far the recorded strokes are from those that were drawn, in px; where the view begins does not matter. */
-function recordedWithin(drawn, recorded) {
+/** How far the recorded strokes are from those that were drawn, in px; where in the drawing the view is does not matter. */
+function recordedWithin(drawn, recorded, pixelSize) {
   must(recorded.length === drawn.length, `${drawn.length} strokes were drawn and ${recorded.length} recorded`);
   let worst = 0;
   drawn.forEach((points, i) => {
@@ -96,7 +108,8 @@ function recordedWithin(drawn, recorded) {
     must(kept.length >= points.length && kept.length <= points.length + 1,
       `stroke ${i + 1} was drawn with ${points.length} points and recorded with ${kept.length}`);
     points.forEach(([x, y], k) => {
-      const off = [kept[k][0] - kept[0][0] - (x - points[0][0]), kept[k][1] - kept[0][1] - (y - points[0][1])];
+      const from = (i, start, place) => (kept[k][i] - kept[0][i]) / pixelSize - (place - start);
+      const off = [from(0, points[0][0], x), from(1, points[0][1], y)];
       worst = Math.max(worst, Math.hypot(...off));
       must(k === 0 || kept[k][2] >= kept[k - 1][2], `time runs backwards in stroke ${i + 1}`);
     });
@@ -136,13 +149,13 @@ async function mustShow(seen, page, before, after) {
 
 async function drawsAndSaves(seen) {
   await withPage({}, async (page, log) => {
-    seen.readyMs = (await openedWell(page)).readyMs;
+    seen.readyMs = (await openedBlank(page)).readyMs;
     const before = await page.screenshot({ path: out("ready.png") });
     for (const points of task.strokes) await draw(page, points);
     seen.state = await settled(page, task.strokes.length);
     const recorded = await page.evaluate(() => window.fairpath.strokes());
     writeFileSync(out("recorded.json"), recorded);
-    seen.recordedWithinPx = recordedWithin(task.strokes, JSON.parse(recorded).strokes);
+    seen.recordedWithinPx = recordedWithin(task.strokes, JSON.parse(recorded).strokes, seen.state.pixel_size);
     must(seen.recordedWithinPx < 1e-3, `places are recorded with an error of ${seen.recordedWithinPx} px`);
     const [download] = await Promise.all([page.waitForEvent("download", { timeout: 10_000 }), page.evaluate(() => window.fairpath.saveSvg())]);
     await download.saveAs(out("saved.svg"));
@@ -165,7 +178,7 @@ async function drawsByWebGpu(seen) {
         return getContext.call(this, kind, ...rest);
       };
     });
-    await openedWell(page);
+    await openedBlank(page);
     seen.webGpu = await page.evaluate(async () => Boolean(await navigator.gpu?.requestAdapter()));
     if (!seen.webGpu) return console.log("draws by WebGPU: this browser has none here");
     const contexts = await page.evaluate(() => window.contexts);
@@ -218,7 +231,7 @@ async function survivesItsWorker(seen) {
         }
       };
     });
-    await openedWell(page);
+    await openedBlank(page);
     await draw(page, task.strokes[0]);
     await settled(page, 1);
     // No job at all: the program's own door refuses it.
@@ -262,15 +275,18 @@ async function keepsTexts(seen) {
 async function keepsGesturesOff() {
   await withPage({}, async (page) => {
     await openedWell(page);
+    await settled(page, (await state(page)).strokes);
+    await page.screenshot({ path: out("first.png") });
     const prevented = await page.evaluate(() => {
       const canvas = document.getElementById("canvas");
       const events = [
         new WheelEvent("wheel", { ctrlKey: true, deltaY: 100, bubbles: true, cancelable: true }),
         new MouseEvent("contextmenu", { bubbles: true, cancelable: true }),
+        new DragEvent("dragstart", { bubbles: true, cancelable: true }),
       ];
       return events.map((event) => (canvas.dispatchEvent(event), event.defaultPrevented));
     });
-    must(prevented.every(Boolean), `the browser's own zoom or menu is not kept off: ${prevented}`);
+    must(prevented.every(Boolean), `the browser's own zoom, menu or dragging is not kept off: ${prevented}`);
     const action = await page.evaluate(() => getComputedStyle(document.getElementById("canvas")).touchAction);
     must(action === "none", `touches over the canvas scroll the page: touch-action is ${action}`);
   });

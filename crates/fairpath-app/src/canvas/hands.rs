@@ -106,6 +106,9 @@ impl Hands {
         }
         if self.gesture == Gesture::Draw {
             moved |= self.follow_pen(session, view);
+            if self.pen.pop_front().is_some_and(|sample| sample.phase == PenPhase::Cancel) {
+                self.cancel(session);
+            }
         } else {
             self.pen.clear();
         }
