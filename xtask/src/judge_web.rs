@@ -48,7 +48,7 @@ fn tools_ready() -> Result<(PathBuf, PathBuf)> {
 
 fn judge(page: &Path, browser: &Path, packages: &Path) -> Result<Outcome> {
     let out = tree::scratch("judge-web")?;
-    for old in ["seen.json", "recorded.json", "saved.svg"] {
+    for old in ["seen.json", "recorded.json", "saved.svg", "saved.json"] {
         if out.join(old).exists() {
             fs::remove_file(out.join(old))?;
         }
@@ -80,7 +80,7 @@ fn judge(page: &Path, browser: &Path, packages: &Path) -> Result<Outcome> {
 /// The curves of the saved drawing and those of the command line for the recorded strokes, drawn with pixels of that size: the same to the
 /// bit. How many there are.
 fn same_curves(out: &Path, pixel_size: &Value) -> Result<usize> {
-    let (saved, fitted) = (out.join("saved.json"), out.join("fitted.json"));
+    let (saved, fitted) = (out.join("converted.json"), out.join("fitted.json"));
     let run = |args: &[&str], from: &Path, to: &Path| {
         process::run(Command::new(tree::fairpath()?).args(args).arg(from).arg("-o").arg(to))
     };

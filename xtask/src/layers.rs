@@ -36,6 +36,12 @@ const LAYERS: &[Layer] = &[
     },
     Layer { name: "fairpath-io", workspace: &["fairpath-curve", "fairpath-fit", "fairpath-shape"], outside: None },
     Layer {
+        name: "fairpath-render",
+        // Files and the fitter are for the pictures of its examples.
+        workspace: &["fairpath-curve", "fairpath-shape", "fairpath-fit", "fairpath-io"],
+        outside: Some(&["bytemuck", "glam", "pollster", "thiserror", "wgpu"]),
+    },
+    Layer {
         name: "fairpath",
         workspace: &["fairpath-curve", "fairpath-fit", "fairpath-shape", "fairpath-io"],
         outside: None,

@@ -19,6 +19,7 @@ pub(crate) fn run() -> Result<()> {
     });
     steps.step("lints of the page", page_lints);
     steps.step("bans in the cores", core_bans);
+    steps.step("graphics", || tools::graphics().map(Outcome::Passed));
     steps.step("tests", tests);
     steps.step("documentation", || {
         let mut doc = cargo(&["doc", "--quiet", "--workspace", "--no-deps"]);

@@ -54,6 +54,19 @@ pub(crate) fn rsvg_convert() -> Result<()> {
     if process::exists("rsvg-convert") { Ok(()) } else { apt("librsvg2-bin") }
 }
 
+/// Makes sure that there is a driver to draw with, Mesa's in software where there is no graphics card.
+pub(crate) fn graphics() -> Result<String> {
+    /// Where each driver for Vulkan has a file that tells of it.
+    const FOLDERS: [&str; 3] = ["/usr/share/vulkan/icd.d", "/usr/local/share/vulkan/icd.d", "/etc/vulkan/icd.d"];
+    let known =
+        || FOLDERS.iter().filter_map(|folder| fs::read_dir(folder).ok()).any(|mut files| files.next().is_some());
+    // Elsewhere the system brings its own.
+    if cfg!(target_os = "linux") && !known() {
+        apt("mesa-vulkan-drivers")?;
+    }
+    Ok("there is a driver to draw with".into())
+}
+
 /// The browser, if it can be had.
 pub(crate) fn chromium() -> Result<&'static str> {
     const NAMES: [&str; 3] = ["chromium", "chromium-browser", "google-chrome"];

@@ -5,10 +5,13 @@
 
 mod app;
 mod canvas;
+mod documents;
 mod example;
+mod files;
 mod icons;
 mod panels;
 pub mod pen;
+mod store;
 mod theme;
 mod view;
 #[cfg(target_arch = "wasm32")]
@@ -16,4 +19,7 @@ pub mod web;
 mod worker;
 
 pub use app::App;
+#[cfg(not(target_arch = "wasm32"))]
+pub use store::FileStore;
+pub use store::{NoStore, Store};
 pub use worker::{InlineWorker, Worker};

@@ -246,6 +246,32 @@ async function survivesItsWorker(seen) {
   });
 }
 
+/** The drawing is there again after the page was left, and goes out by the keys for saving. */
+async function keepsTheDrawing(seen) {
+  await withPage({}, async (page) => {
+    await openedBlank(page);
+    await draw(page, task.strokes[0]);
+    await settled(page, 1);
+    const strokes = await page.evaluate(() => window.fairpath.strokes());
+    await page.evaluate(async () => {
+      const end = performance.now() + 20_000;
+      const kept = async () => JSON.parse((await window.fairpath.loadText("drawing")) ?? "null")?.strokes.strokes.length === 1;
+      while (!(await kept())) {
+        if (performance.now() > end) throw new Error("the drawing is not kept within 20 s");
+        await new Promise((resolve) => setTimeout(resolve, 200));
+      }
+    });
+    await openedWell(page);
+    await settled(page, 1);
+    must((await page.evaluate(() => window.fairpath.strokes())) === strokes, "the drawing that is back is another one");
+    const [download] = await Promise.all([page.waitForEvent("download", { timeout: 10_000 }), page.keyboard.press("Control+s")]);
+    await download.saveAs(out("saved.json"));
+    const saved = JSON.parse(readFileSync(out("saved.json"), "utf8"));
+    must(JSON.stringify(saved.strokes) === JSON.stringify(JSON.parse(strokes)), "the saved drawing is another one");
+    seen.savedDrawing = download.suggestedFilename();
+  });
+}
+
 /** Texts of many megabytes are there again after the page was left. */
 async function keepsTexts(seen) {
   // Twenty million characters, one in ten of which takes two bytes.
@@ -326,6 +352,7 @@ const steps = [
   ["draws by WebGPU", () => drawsByWebGpu(seen)],
   ["shows its progress", () => showsItsProgress(seen)],
   ["survives its worker", () => survivesItsWorker(seen)],
+  ["keeps the drawing", () => keepsTheDrawing(seen)],
   ["keeps texts", () => keepsTexts(seen)],
   ["keeps gestures off", () => keepsGesturesOff()],
   ["damaged program", () => saysSo(seen, "damaged", "could not be loaded", { dark: true }, undefined, task.brokenUrl)],

@@ -7,7 +7,7 @@ use wasm_bindgen::JsCast;
 use wasm_bindgen::prelude::*;
 use web_sys::HtmlCanvasElement;
 
-use super::{PageWorker, pen, said, trouble, worker};
+use super::{PageStore, PageWorker, pen, said, trouble, worker};
 use crate::App;
 
 /// The application that runs in this page.
@@ -42,7 +42,8 @@ pub async fn start(canvas_id: String, worker_url: String) -> Result<(), JsError>
             RUNNING.with(|running| running.get().map(|running| running.ctx.set(creation.egui_ctx.clone())));
             // Before eframe's own listeners, one of which draws a frame when the pen is set down.
             pen::listen(&canvas, &creation.egui_ctx).map_err(|error| said(&error))?;
-            Ok(Box::new(App::new(&creation.egui_ctx, Box::new(PageWorker::new(&creation.egui_ctx)))))
+            let ctx = &creation.egui_ctx;
+            Ok(Box::new(App::new(ctx, Box::new(PageWorker::new(ctx)), Box::new(PageStore::new(ctx)))))
         })
     };
     let started = runner.start(canvas, eframe::WebOptions::default(), creator).await;

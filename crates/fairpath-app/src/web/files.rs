@@ -1,6 +1,9 @@
 //! Files out of the page and into it. Done by hand and not by the crate that the desktop uses, whose dialogs in a page are windows of its
 //! own drawing that ask for one click more.
 
+use std::cell::Cell;
+use std::rc::Rc;
+
 use js_sys::{Array, ArrayBuffer, Uint8Array};
 use wasm_bindgen::JsCast;
 use wasm_bindgen::prelude::*;
@@ -12,17 +15,20 @@ use super::said;
 /// How long the browser may take to begin a download before its bytes are given up, in ms.
 const DOWNLOAD_BEGINS_MS: i32 = 60_000;
 
-/// Gives the reader a file to save; `mime` is its kind, such as `image/svg+xml`.
+/// The kind of what is downloaded: no browser shows such instead of saving it, and the name says the rest.
+const KIND: &str = "application/octet-stream";
+
+/// Gives the person a file to save.
 ///
 /// # Errors
 /// What the browser says if it cannot.
-pub fn download(name: &str, bytes: &[u8], mime: &str) -> Result<(), String> {
-    begin_download(name, bytes, mime).map_err(|error| format!("the browser cannot save {name}: {}", said(&error)))
+pub fn download(name: &str, bytes: &[u8]) -> Result<(), String> {
+    begin_download(name, bytes).map_err(|error| format!("{name}: the browser cannot save it: {}", said(&error)))
 }
 
-fn begin_download(name: &str, bytes: &[u8], mime: &str) -> Result<(), JsValue> {
+fn begin_download(name: &str, bytes: &[u8]) -> Result<(), JsValue> {
     let kind = BlobPropertyBag::new();
-    kind.set_type(mime);
+    kind.set_type(KIND);
     let blob = Blob::new_with_u8_array_sequence_and_options(&Array::of1(&Uint8Array::from(bytes)), &kind)?;
     let url = Url::create_object_url_with_blob(&blob)?;
     let anchor: HtmlAnchorElement = document()?.create_element("a")?.unchecked_into();
@@ -35,27 +41,39 @@ fn begin_download(name: &str, bytes: &[u8], mime: &str) -> Result<(), JsValue> {
     Ok(())
 }
 
-/// Lets the reader choose a file; `accept` lists endings or kinds, as in `.json,.svg`. What was chosen comes to `then` with its name, or
-/// why it cannot be read; nothing comes if nothing is chosen. Browsers allow this only while they handle a click.
-///
-/// # Errors
-/// What the browser says if it cannot ask.
-pub fn open(accept: &str, then: impl FnOnce(Result<(String, Vec<u8>), String>) + 'static) -> Result<(), String> {
-    ask_for_file(accept, then).map_err(|error| format!("the browser cannot open files: {}", said(&error)))
+/// Lets the person choose a file of these extensions. What was chosen comes to `then` with its name, or why it cannot be read; nothing comes
+/// if nothing is chosen. Browsers allow this only soon after a click or a key.
+pub fn open(extensions: &[&str], then: impl FnOnce(Result<(String, Vec<u8>), String>) + 'static) {
+    let then = Rc::new(Cell::new(Some(then)));
+    let outcome = {
+        let then = Rc::clone(&then);
+        move |read| {
+            if let Some(then) = then.take() {
+                then(read);
+            }
+        }
+    };
+    if let Err(error) = ask_for_file(extensions, outcome)
+        && let Some(then) = then.take()
+    {
+        then(Err(format!("the browser cannot ask for a file: {}", said(&error))));
+    }
 }
 
-fn ask_for_file(accept: &str, then: impl FnOnce(Result<(String, Vec<u8>), String>) + 'static) -> Result<(), JsValue> {
+fn ask_for_file(
+    extensions: &[&str],
+    then: impl FnOnce(Result<(String, Vec<u8>), String>) + 'static,
+) -> Result<(), JsValue> {
     let input: HtmlInputElement = document()?.create_element("input")?.unchecked_into();
     input.set_type("file");
-    input.set_accept(accept);
+    input.set_accept(&extensions.iter().map(|extension| format!(".{extension}")).collect::<Vec<_>>().join(","));
     let chosen = Closure::once_into_js({
         let input = input.clone();
         move || {
             let Some(file) = input.files().and_then(|files| files.get(0)) else { return };
             spawn_local(async move {
                 let name = file.name();
-                let read =
-                    read(&file).await.map_err(|error| format!("the browser cannot read {name}: {}", said(&error)));
+                let read = read(&file).await.map_err(|error| format!("{name}: cannot be read: {}", said(&error)));
                 then(read.map(|bytes| (name, bytes)));
             });
         }

@@ -63,7 +63,7 @@ fn text(bytes: Vec<u8>) -> Result<String, JsError> {
 #[wasm_bindgen(js_name = saveSvg)]
 pub fn save_svg() -> Result<(), JsError> {
     let svg = svg()?.ok_or_else(|| JsError::new("the application is busy"))?;
-    files::download("drawing.svg", svg.as_bytes(), "image/svg+xml").map_err(|error| JsError::new(&error))
+    files::download("drawing.svg", svg.as_bytes()).map_err(|error| JsError::new(&error))
 }
 
 /// Saves a text in the browser's database.

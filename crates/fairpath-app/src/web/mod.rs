@@ -5,13 +5,14 @@
 //! | run the application on a canvas | [`start`] |
 //! | what the pen did since the last frame, at the device's own rate | [`pen::drain`] |
 //! | long work beside the page, so that it stays quick | [`PageWorker`], made of [`JobWorker`]; in the worker [`run_job`] |
-//! | keep texts of any size from one visit to the next | [`storage`] |
+//! | keep the drawing from one visit to the next | [`PageStore`], made of [`storage`] |
 //! | save a file, open one | [`download`], [`open`] |
 //! | what the page's script asks about the drawing | [`hooks`] |
 
 mod app_runner;
 mod files;
 pub mod hooks;
+mod page_store;
 mod page_worker;
 pub mod pen;
 pub mod storage;
@@ -20,6 +21,7 @@ mod worker;
 
 pub use app_runner::start;
 pub use files::{download, open};
+pub use page_store::PageStore;
 pub use page_worker::PageWorker;
 pub use worker::{JobOutcome, JobWorker, run_job};
 
