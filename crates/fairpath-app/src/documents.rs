@@ -35,7 +35,8 @@ impl Default for Document {
 }
 
 impl App {
-    /// Whether something would be lost if the drawing were gone.
+    /// Whether something would be lost if the drawing were gone. A page has no window to hold open: what it shows is kept.
+    #[cfg(not(target_arch = "wasm32"))]
     pub(crate) fn is_unsaved(&self) -> bool {
         self.document.saved != self.session.history().version() && self.session.history().undoable().is_some()
     }

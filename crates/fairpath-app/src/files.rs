@@ -3,6 +3,7 @@
 //! A dialog is open for as long as a person likes, so each runs beside the interface and is asked after in every frame.
 
 use eframe::egui::Context;
+#[cfg(not(target_arch = "wasm32"))]
 use std::future::Future;
 use std::sync::mpsc::{Receiver, Sender, channel};
 
@@ -47,7 +48,8 @@ impl Files {
         self.events.try_iter().collect()
     }
 
-    /// As if a file had been chosen: for one that was dropped.
+    /// As if a file had been chosen: for one that was dropped. A browser reads it beside the interface, through the outbox.
+    #[cfg(not(target_arch = "wasm32"))]
     pub(crate) fn dropped(&self, event: FileEvent) {
         // The other end lives as long as this does.
         let _ = self.outbox.send(event);
@@ -69,54 +71,71 @@ impl Files {
             ),
             Purpose::Background => ("Trace over a picture", "Pictures", &["png", "jpg", "jpeg", "webp"]),
         };
-        let dialog = rfd::AsyncFileDialog::new().set_title(title).add_filter(filter, extensions).pick_file();
         let (outbox, ctx) = (self.outbox.clone(), ctx.clone());
-        beside(async move {
-            if let Some(file) = dialog.await {
-                let name = file.file_name();
-                let bytes = file.read().await;
-                let _ = outbox.send(FileEvent::Chosen { purpose, name, bytes });
-                ctx.request_repaint();
-            }
+        ask(title, filter, extensions, move |chosen| {
+            let _ = outbox.send(match chosen {
+                Ok((name, bytes)) => FileEvent::Chosen { purpose, name, bytes },
+                Err(text) => FileEvent::Failed { text },
+            });
+            ctx.request_repaint();
         });
     }
 
     /// Lets a person choose where to write a file.
     pub(crate) fn save(&self, ctx: &Context, name: &str, bytes: Vec<u8>) {
-        let dialog = rfd::AsyncFileDialog::new().set_title("Save").set_file_name(name).save_file();
         let (outbox, ctx) = (self.outbox.clone(), ctx.clone());
-        beside(async move {
-            if let Some(file) = dialog.await {
-                let name = file.file_name();
-                let event = match write(&file, &bytes).await {
-                    Ok(()) => FileEvent::Saved { name },
-                    Err(text) => FileEvent::Failed { text },
-                };
-                let _ = outbox.send(event);
-                ctx.request_repaint();
-            }
+        write(name, bytes, move |written| {
+            let _ = outbox.send(match written {
+                Ok(name) => FileEvent::Saved { name },
+                Err(text) => FileEvent::Failed { text },
+            });
+            ctx.request_repaint();
         });
     }
 }
 
-/// Writes a file, whole or not at all.
+/// Asks for a file and gives its name and its bytes to `then`, or why it cannot be read; nothing if none is chosen.
 #[cfg(not(target_arch = "wasm32"))]
-async fn write(file: &rfd::FileHandle, bytes: &[u8]) -> Result<(), String> {
-    fairpath_io::write_whole(file.path(), bytes).map_err(|error| error.to_string())
+fn ask(
+    title: &str,
+    filter: &str,
+    extensions: &[&str],
+    then: impl FnOnce(Result<(String, Vec<u8>), String>) + Send + 'static,
+) {
+    let dialog = rfd::AsyncFileDialog::new().set_title(title).add_filter(filter, extensions).pick_file();
+    beside(async move {
+        if let Some(file) = dialog.await {
+            then(Ok((file.file_name(), file.read().await)));
+        }
+    });
+}
+
+/// A browser shows a title and a filter of its own.
+#[cfg(target_arch = "wasm32")]
+fn ask(_: &str, _: &str, extensions: &[&str], then: impl FnOnce(Result<(String, Vec<u8>), String>) + 'static) {
+    crate::web::open(extensions, then);
+}
+
+/// Asks where to write a file, writes it whole or not at all, and gives its name to `then`, or why it cannot be written; nothing if no place
+/// is chosen.
+#[cfg(not(target_arch = "wasm32"))]
+fn write(name: &str, bytes: Vec<u8>, then: impl FnOnce(Result<String, String>) + Send + 'static) {
+    let dialog = rfd::AsyncFileDialog::new().set_title("Save").set_file_name(name).save_file();
+    beside(async move {
+        if let Some(file) = dialog.await {
+            let written = fairpath_io::write_whole(file.path(), &bytes).map_err(|error| error.to_string());
+            then(written.map(|()| file.file_name()));
+        }
+    });
 }
 
 /// In a browser a file that is written is downloaded.
 #[cfg(target_arch = "wasm32")]
-async fn write(file: &rfd::FileHandle, bytes: &[u8]) -> Result<(), String> {
-    file.write(bytes).await.map_err(|error| format!("{}: cannot be saved: {error}", file.file_name()))
+fn write(name: &str, bytes: Vec<u8>, then: impl FnOnce(Result<String, String>) + 'static) {
+    then(crate::web::download(name, &bytes).map(|()| name.to_owned()));
 }
 
 #[cfg(not(target_arch = "wasm32"))]
 fn beside(dialog: impl Future<Output = ()> + Send + 'static) {
     std::thread::spawn(move || pollster::block_on(dialog));
-}
-
-#[cfg(target_arch = "wasm32")]
-fn beside(dialog: impl Future<Output = ()> + 'static) {
-    wasm_bindgen_futures::spawn_local(dialog);
 }

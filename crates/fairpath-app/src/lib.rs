@@ -11,9 +11,12 @@ mod files;
 mod icons;
 mod pace;
 mod panels;
+pub mod pen;
 mod store;
 mod theme;
 mod view;
+#[cfg(target_arch = "wasm32")]
+pub mod web;
 mod worker;
 
 pub use app::App;

@@ -1,5 +1,6 @@
 //! What survives a crash: the drawing is kept every few seconds while it changes, and offered when the application starts again.
 
+#[cfg(not(target_arch = "wasm32"))]
 use std::sync::mpsc::{Receiver, Sender, channel};
 
 /// A place that keeps one text, which may take a while: nothing here waits for it.
