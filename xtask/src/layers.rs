@@ -42,13 +42,30 @@ const LAYERS: &[Layer] = &[
         outside: Some(&["bytemuck", "glam", "pollster", "thiserror", "wgpu"]),
     },
     Layer {
-        name: "fairpath",
+        name: "fairpath-sketch",
         workspace: &["fairpath-curve", "fairpath-fit", "fairpath-shape", "fairpath-io"],
+        outside: Some(&["data-encoding", "libm", "schemars", "serde", "serde_json", "thiserror"]),
+    },
+    Layer {
+        name: "fairpath",
+        workspace: &["fairpath-curve", "fairpath-fit", "fairpath-shape", "fairpath-io", "fairpath-sketch"],
+        outside: None,
+    },
+    Layer {
+        name: "fairpath-app",
+        workspace: &[
+            "fairpath-curve",
+            "fairpath-fit",
+            "fairpath-shape",
+            "fairpath-io",
+            "fairpath-render",
+            "fairpath-sketch",
+        ],
         outside: None,
     },
     Layer {
         name: "xtask",
-        workspace: &["fairpath-curve", "fairpath-fit", "fairpath-shape", "fairpath-io", "fairpath"],
+        workspace: &["fairpath-curve", "fairpath-fit", "fairpath-shape", "fairpath-io", "fairpath-sketch", "fairpath"],
         outside: None,
     },
 ];

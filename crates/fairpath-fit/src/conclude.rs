@@ -52,7 +52,7 @@ pub(crate) fn describe(report: &mut Report, spline: &Spline, stroke: &Stroke, pi
         report.pieces = spline.segments().len();
     }
     report.max_deviation = largest;
-    report.rms_deviation = (squares / stroke.points.len() as f64).sqrt();
+    report.rms_deviation = (squares / stroke.points.len().max(1) as f64).sqrt();
     let flat = FLAT / pixel_size;
     let ends = spline.segments().iter().flat_map(|s| [s.kappa0, s.kappa1]).filter(|k| k.abs() > flat);
     let mut sign = 0.0;

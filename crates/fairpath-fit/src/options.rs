@@ -30,6 +30,26 @@ impl Preset {
     /// All presets, in the order of their documentation.
     pub const ALL: [Self; 7] =
         [Self::Default, Self::Accurate, Self::Loose, Self::LinesArcs, Self::Polyline, Self::Clothoids, Self::Paper];
+
+    /// Its name in files and on the command line.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Default => "default",
+            Self::Accurate => "accurate",
+            Self::Loose => "loose",
+            Self::LinesArcs => "lines-arcs",
+            Self::Polyline => "polyline",
+            Self::Clothoids => "clothoids",
+            Self::Paper => "paper",
+        }
+    }
+
+    /// The preset of that name.
+    #[must_use]
+    pub fn from_name(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|preset| preset.name() == name)
+    }
 }
 
 /// Whether the stroke is a closed curve.

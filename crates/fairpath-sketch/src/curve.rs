@@ -7,6 +7,7 @@ use fairpath_curve::{Point, Similarity, Spline, Vec2};
 use fairpath_fit::{Closing, Constraint, Fit, FitError, Report, Stroke, Warning, measure};
 use fairpath_io::UsedTemplates;
 use serde::{Deserialize, Serialize};
+use std::sync::Arc;
 
 /// Names a curve for as long as the drawing is open; never used twice.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
@@ -43,6 +44,8 @@ pub struct Curve {
     pub neatening: Neatening,
     /// Places through which it is held.
     pub pins: Vec<Pin>,
+    /// The curve as it was before it was held through its pins; nothing if it has none, or is first to be fitted.
+    pub unpinned: Option<Arc<Spline>>,
     /// Whether the curve is what stroke, neatening and pins give, or an edit of that; else it is to be fitted.
     pub fitted: bool,
     /// The curve.
@@ -61,17 +64,28 @@ impl Curve {
     /// # Errors
     /// When the stroke is a dot, or has coordinates that are not finite.
     pub fn drawn(id: CurveId, stroke: Stroke, neatening: Neatening) -> Result<Self, FitError> {
-        let (raw, _) = Settings::Raw.fit(&stroke, None)?;
+        let (raw, _) = Settings::Raw.fit(&stroke, None, &mut ())?;
         let name = stroke.name.clone();
         let Fit { spline, report, warnings } = raw;
-        let (pins, templates) = (Vec::new(), None);
-        Ok(Self { id, name, stroke, neatening, pins, fitted: false, spline, report, warnings, templates })
+        let (pins, unpinned, templates) = (Vec::new(), None, None);
+        Ok(Self { id, name, stroke, neatening, pins, unpinned, fitted: false, spline, report, warnings, templates })
     }
 
-    /// The curve with another shape, which an edit gave it. `drawn` is what was drawn for it, if anything; see [`carried`].
+    /// The curve with another shape, which an edit gave it. `drawn` is what was drawn for it, if anything; see [`carried`]. Where it was held through
+    /// places it stays, but is held no more: the edit has made that shape its own.
     #[must_use]
     pub fn edited(&self, spline: Spline, drawn: &[Point]) -> Self {
-        let stroke = carried(&self.stroke, &self.spline, &spline, drawn, self.neatening.pixel_size);
+        let stroke = carried(&[self.source()], &spline, drawn, self.neatening.pixel_size);
+        self.reshaped(spline, stroke)
+    }
+
+    /// The stroke, and the curve that was fitted to it.
+    pub(crate) fn source(&self) -> (&Stroke, &Spline) {
+        (&self.stroke, self.unpinned.as_deref().unwrap_or(&self.spline))
+    }
+
+    /// The curve with another shape and a stroke that fits it.
+    pub(crate) fn reshaped(&self, spline: Spline, stroke: Stroke) -> Self {
         let report = measure(&spline, &stroke, self.neatening.pixel_size);
         let closed = if spline.is_closed() { Closing::Yes } else { Closing::No };
         Self {
@@ -79,9 +93,12 @@ impl Curve {
             spline,
             report,
             neatening: Neatening { closed, ..self.neatening.clone() },
+            pins: Vec::new(),
+            unpinned: None,
             warnings: Vec::new(),
             templates: None,
-            fitted: true,
+            // What was changed before it was fitted is still to be fitted, to the stroke with the change.
+            fitted: self.fitted || self.unpinned.is_some(),
             ..self.clone()
         }
     }
@@ -90,7 +107,9 @@ impl Curve {
     #[must_use]
     pub fn moved(&self, by: Vec2) -> Self {
         let mut moved = self.clone();
-        moved.spline = self.spline.transformed(&Similarity { translation: by, ..Similarity::IDENTITY });
+        let shift = Similarity { translation: by, ..Similarity::IDENTITY };
+        moved.spline = self.spline.transformed(&shift);
+        moved.unpinned = self.unpinned.as_ref().map(|spline| Arc::new(spline.transformed(&shift)));
         moved.stroke.points.iter_mut().for_each(|point| *point += by);
         moved.pins.iter_mut().for_each(|pin| pin.point += by);
         for piece in moved.templates.iter_mut().flat_map(|used| &mut used.pieces) {

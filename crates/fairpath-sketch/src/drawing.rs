@@ -9,7 +9,7 @@ use fairpath_io::{SHIPPED_TEMPLATES, Unit, YAxis, shipped_templates};
 use std::sync::{Arc, OnceLock};
 
 /// What a person has drawn. A copy shares all curves with the original, so that keeping many states costs little.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default)]
 pub struct Drawing {
     /// Unit of all coordinates.
     pub unit: Unit,
@@ -21,6 +21,22 @@ pub struct Drawing {
     /// A picture to trace over.
     pub background: Option<Arc<Background>>,
     named: u64,
+}
+
+/// Two drawings are equal if the same can be seen and done with them; which identities were given before does not count.
+impl PartialEq for Drawing {
+    fn eq(&self, other: &Self) -> bool {
+        self.unit == other.unit
+            && self.y == other.y
+            && all_same(self.background.as_slice(), other.background.as_slice())
+            && all_same(&self.curves, &other.curves)
+            && all_same(&self.template_sets, &other.template_sets)
+    }
+}
+
+/// Whether two lists hold the same; what is shared, as the states of a history share nearly all, is not looked through.
+fn all_same<T: PartialEq>(a: &[Arc<T>], b: &[Arc<T>]) -> bool {
+    a.len() == b.len() && a.iter().zip(b).all(|(a, b)| Arc::ptr_eq(a, b) || a == b)
 }
 
 impl Drawing {
@@ -64,6 +80,18 @@ impl Drawing {
             Some(place) => *place = Arc::new(curve),
             None => self.curves.push(Arc::new(curve)),
         }
+    }
+
+    /// Puts a curve in the place of a certain state of it, if the drawing has that.
+    pub(crate) fn supersede(&mut self, old: &Arc<Curve>, new: &Arc<Curve>) {
+        if let Some(place) = self.curves.iter_mut().find(|curve| Arc::ptr_eq(curve, old)) {
+            *place = Arc::clone(new);
+        }
+    }
+
+    /// Gives no identity that another state of the drawing has given.
+    pub(crate) fn name_after(&mut self, other: &Self) {
+        self.named = self.named.max(other.named);
     }
 
     /// Puts curves in the place of one, or in front if there is none of that identity.

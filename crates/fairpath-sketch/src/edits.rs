@@ -1,10 +1,11 @@
 //! Edits by hand: each takes places of curves and changes the drawing as one step that can be undone.
 
+use crate::carry::carried;
 use crate::curve::{Curve, CurveId};
 use crate::desk::Slot;
 use crate::session::Session;
 use fairpath_curve::{Continuity, Spline};
-use fairpath_fit::{CurveEnd, Extension, Stroke, close, cut, extend, join, make_corner, smooth_corner};
+use fairpath_fit::{CurveEnd, Extension, close, cut, extend, join, make_corner, smooth_corner};
 
 impl Session {
     /// Cuts a curve at a station: an open one in two, a closed one open.
@@ -22,7 +23,6 @@ impl Session {
                     part.id = drawing.new_id();
                     part.name = drawing.free_name(&curve.name);
                 }
-                part.pins.clear();
                 part
             };
             let parts: Vec<Curve> = parts.into_iter().enumerate().map(part).collect();
@@ -30,10 +30,14 @@ impl Session {
             drawing.replace(id, parts);
             ids
         });
+        self.want_all();
     }
 
     /// Joins two open curves at their nearest ends, smoothly, cutting both back by up to `reach`.
     pub fn join(&mut self, a: CurveId, b: CurveId, reach: f64) {
+        if a == b {
+            return;
+        }
         let (Some(first), Some(second)) = (self.drawing().curve(a).cloned(), self.drawing().curve(b).cloned()) else {
             return;
         };
@@ -43,14 +47,14 @@ impl Session {
             Ok(joined) => joined,
             Err(error) => return self.report(error),
         };
-        let stroke = joined_stroke(&first, end, &second, with_end);
         self.desk.drop_wishes(Slot::Curve(a));
         self.desk.drop_wishes(Slot::Curve(b));
+        let stroke = carried(&[first.source(), second.source()], &joined, &[], first.neatening.pixel_size);
         self.history.act("Join", |drawing| {
-            let both = Curve { stroke, ..(*first).clone() };
-            drawing.put(both.edited(joined, &[]));
+            drawing.put(first.reshaped(joined, stroke));
             drawing.remove(b);
         });
+        self.want_all();
         self.select(Some(a), false);
     }
 
@@ -115,20 +119,6 @@ fn nearest_ends(a: &Spline, b: &Spline) -> [CurveEnd; 2] {
     let pairs = ends.into_iter().flat_map(|end| ends.map(|with| [end, with]));
     let distance = |pair: &[CurveEnd; 2]| (place(a, pair[0]) - place(b, pair[1])).hypot();
     pairs.min_by(|p, q| distance(p).total_cmp(&distance(q))).unwrap_or([CurveEnd::End, CurveEnd::Start])
-}
-
-/// The strokes of two curves that are joined, one after the other.
-fn joined_stroke(a: &Curve, end: CurveEnd, b: &Curve, with_end: CurveEnd) -> Stroke {
-    let mut points = a.stroke.points.clone();
-    if end == CurveEnd::Start {
-        points.reverse();
-    }
-    let others = b.stroke.points.iter().copied();
-    match with_end {
-        CurveEnd::Start => points.extend(others),
-        CurveEnd::End => points.extend(others.rev()),
-    }
-    Stroke::new(a.stroke.name.clone(), points)
 }
 
 /// The station of a join.

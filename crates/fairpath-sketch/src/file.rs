@@ -167,7 +167,8 @@ pub fn decode_drawing(bytes: &[u8], name: &str) -> Result<Drawing, DrawingError>
         };
         let id = drawing.new_id();
         let SplineEntry { spline, templates, warnings, .. } = entry;
-        drawing.put(Curve { id, name: curve, stroke, neatening, pins, fitted, spline, report, warnings, templates });
+        let (name, unpinned) = (curve, None);
+        drawing.put(Curve { id, name, stroke, neatening, pins, unpinned, fitted, spline, report, warnings, templates });
     }
     if let Some(background) = record.background {
         if !background.is_valid() {
@@ -216,8 +217,8 @@ fn curve_of(entry: SplineEntry, neatening: &Neatening, pixel_size: f64) -> Curve
     let method = crate::Method::from_name(&method).unwrap_or(neatening.method);
     let neatening = Neatening { method, pixel_size, ..neatening.clone() };
     let report = report.map_or_else(|| measure(&spline, &stroke, pixel_size), |report| report.figures);
-    let (id, pins, fitted) = (CurveId(0), Vec::new(), true);
-    Curve { id, name, stroke, neatening, pins, fitted, spline, report, warnings, templates }
+    let (id, pins, unpinned, fitted) = (CurveId(0), Vec::new(), None, true);
+    Curve { id, name, stroke, neatening, pins, unpinned, fitted, spline, report, warnings, templates }
 }
 
 #[cfg(test)]

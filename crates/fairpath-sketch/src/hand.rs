@@ -4,7 +4,7 @@
 //! Lehtinen and Popović 2010, section 3.7; the thesis on Drive, section 3.4.2, for ends), unless the person asks for a new one.
 
 use crate::curve::{Curve, CurveId};
-use crate::desk::Slot;
+use crate::desk::{Slot, Wish};
 use crate::job::{Fitted, Job, Trouble};
 use crate::neatening::Neatening;
 use crate::session::Session;
@@ -101,6 +101,7 @@ impl Session {
     /// Sets the pen down. `pixel_size` is the size of a pixel of the screen in the drawing's unit. With `greedy`, parts of French curves are laid while
     /// the stroke is drawn (McCrae and Singh 2011, section 4).
     pub fn begin_stroke(&mut self, pixel_size: f64, greedy: bool) {
+        self.drop_stroke();
         let name = self.drawing().free_name("curve");
         let wish = Neatening { pixel_size, ..self.neatening().clone() };
         let stream = if greedy { self.french_stream(&wish) } else { None };
@@ -147,17 +148,17 @@ impl Session {
         }
         let over = if fresh { None } else { self.over(hand) };
         let (stroke, pixel_size) = (hand.stroke.clone(), hand.pixel_size);
-        let (slot, other, job) = match over {
+        let (wish, other, job) = match over {
             Some(Over { id, .. }) => {
                 let Some(curve) = self.drawing().curve(id) else { return };
                 let options = Box::new(oversketch_options(curve, pixel_size));
                 let job = Job::Oversketch { spline: curve.spline.clone(), stroke, options };
-                (Slot::Preview, Slot::Live, job)
+                (Wish::new(Slot::Preview, Some(curve)), Slot::Live, job)
             }
-            None => (Slot::Live, Slot::Preview, self.fit_job(stroke, pixel_size)),
+            None => (Wish::new(Slot::Live, None), Slot::Preview, self.fit_job(stroke, pixel_size)),
         };
         self.desk.drop_wishes(other);
-        self.desk.want_also(slot, job);
+        self.desk.want_also(wish, job);
         if let Some(hand) = &mut self.hand {
             if hand.over.map(|over| over.id) != over.map(|over| over.id) {
                 hand.preview = None;
@@ -176,8 +177,15 @@ impl Session {
     fn over(&self, hand: &Hand) -> Option<Over> {
         let points = &hand.stroke.points;
         let reach = OversketchOptions::default().reach * hand.pixel_size;
-        let (first, last) = (*points.first()?, *points.last()?);
-        let (id, _) = self.nearest(first, reach).or_else(|| self.nearest(last, reach))?;
+        let ends = [*points.first()?, *points.last()?];
+        let near = ends.map(|end| self.nearest(end, reach).map(|(id, _)| id));
+        // A stroke may begin at one curve, as that of a T does, and end along another.
+        near.into_iter().flatten().find_map(|id| self.over_curve(hand, id))
+    }
+
+    /// What a stroke means for one curve.
+    fn over_curve(&self, hand: &Hand, id: CurveId) -> Option<Over> {
+        let points = &hand.stroke.points;
         let curve = self.drawing().curve(id)?;
         let options = oversketch_options(curve, hand.pixel_size);
         let region = oversketch_region(&curve.spline, &hand.stroke, &options).ok()?;
@@ -202,7 +210,7 @@ impl Session {
             Some(Over { id, .. }) => {
                 if let Some(options) = self.drawing().curve(id).map(|curve| oversketch_options(curve, hand.pixel_size))
                 {
-                    self.want_oversketch(id, hand.stroke, options);
+                    self.correct(id, hand.stroke, options);
                 }
             }
             None => self.draw(hand),
@@ -222,7 +230,7 @@ impl Session {
         match drawn {
             Ok(_) => {
                 self.selection.clear();
-                self.want_unfitted();
+                self.want_all();
             }
             Err(trouble) => self.report(trouble),
         }

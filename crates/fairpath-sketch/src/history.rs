@@ -3,7 +3,9 @@
 //! A state shares with its neighbours all curves that did not change, so it costs a pointer for each curve; undoing is exact
 //! because nothing is computed backwards.
 
+use crate::curve::Curve;
 use crate::drawing::Drawing;
+use std::sync::Arc;
 
 /// Most states that are kept.
 const DEEPEST: usize = 1000;
@@ -58,8 +60,12 @@ impl History {
         if self.gesture.as_deref() == Some(deed) {
             return self.amend(change);
         }
+        let before = self.version;
         let result = self.step(deed, change);
-        self.gesture = Some(deed.to_owned());
+        // What changed nothing left no step that the next deed could belong to.
+        if self.version != before {
+            self.gesture = Some(deed.to_owned());
+        }
         result
     }
 
@@ -72,6 +78,17 @@ impl History {
     pub fn amend<R>(&mut self, change: impl FnOnce(&mut Drawing) -> R) -> R {
         self.version += 1;
         change(&mut self.present)
+    }
+
+    /// Puts a curve in the place of a certain state of it, wherever in past, present and future that is: for what a fit found, which is the same then
+    /// as now.
+    pub(crate) fn supersede(&mut self, old: &Arc<Curve>, new: Curve) {
+        self.version += 1;
+        let new = Arc::new(new);
+        self.present.supersede(old, &new);
+        for state in self.past.iter_mut().chain(&mut self.future) {
+            state.drawing.supersede(old, &new);
+        }
     }
 
     fn step<R>(&mut self, deed: &str, change: impl FnOnce(&mut Drawing) -> R) -> R {
@@ -117,7 +134,9 @@ impl History {
         version: &mut u64,
         gesture: &mut Option<String>,
     ) -> bool {
-        let Some(State { drawing, deed }) = from.pop() else { return false };
+        let Some(State { mut drawing, deed }) = from.pop() else { return false };
+        // Identities are never given twice, not even when the curve that had one was undone.
+        drawing.name_after(present);
         to.push(State { drawing: std::mem::replace(present, drawing), deed });
         *version += 1;
         *gesture = None;

@@ -5,8 +5,8 @@ use crate::curve::Pin;
 use crate::neatening::Neatening;
 use fairpath_curve::{Point, Spline};
 use fairpath_fit::{
-    EditError, FitError, OversketchError, OversketchOptions, Report, Stroke, TemplateSet, Warning, interpolate_all,
-    oversketch,
+    EditError, Fit, FitError, OversketchError, OversketchOptions, Report, Stroke, TemplateSet, Warning,
+    interpolate_all, measure, oversketch,
 };
 use fairpath_io::UsedTemplates;
 use fairpath_shape::{InflateError, InflateOptions, Mesh, inflate};
@@ -27,6 +27,17 @@ pub enum Job {
         templates: Option<Arc<TemplateSet>>,
         /// Places through which the curve is held.
         pins: Vec<Pin>,
+    },
+    /// A curve that is there already, held through places.
+    Hold {
+        /// The curve as it is without that.
+        spline: Spline,
+        /// The stroke that it comes from, for its figures.
+        stroke: Stroke,
+        /// The places.
+        pins: Vec<Pin>,
+        /// Size of a pixel of the screen on which it was drawn, in the unit of the curve.
+        pixel_size: f64,
     },
     /// A curve with a stroke drawn over it.
     Oversketch {
@@ -57,6 +68,8 @@ pub struct Fitted {
     pub warnings: Vec<Warning>,
     /// Which French curves it is made of.
     pub templates: Option<UsedTemplates>,
+    /// For a curve that is held through places, what it was before.
+    pub unpinned: Option<Spline>,
     /// For a stroke drawn over a curve, the points to which the new part was fitted; else empty.
     pub drawn: Vec<Point>,
 }
@@ -87,10 +100,22 @@ pub enum Answer {
 pub fn run(job: &Job) -> Answer {
     let done = match job {
         Job::Fit { stroke, neatening, templates, pins } => fitted(stroke, neatening, templates.as_deref(), pins),
+        Job::Hold { spline, stroke, pins, pixel_size } => {
+            let report = measure(spline, stroke, *pixel_size);
+            let free = Fitted {
+                spline: spline.clone(),
+                report,
+                warnings: Vec::new(),
+                templates: None,
+                unpinned: None,
+                drawn: Vec::new(),
+            };
+            Ok(held(free, stroke, pins, *pixel_size).into())
+        }
         Job::Oversketch { spline, stroke, options } => {
             oversketch(spline, stroke, options).map_err(Trouble::from).map(|done| {
                 let (report, warnings, drawn) = (done.report, done.warnings, done.integrated);
-                Fitted { spline: done.spline, report, warnings, templates: None, drawn }.into()
+                Fitted { spline: done.spline, report, warnings, templates: None, unpinned: None, drawn }.into()
             })
         }
         Job::Inflate { spline, options } => {
@@ -121,16 +146,35 @@ fn fitted(
 ) -> Result<Answer, Trouble> {
     let settings =
         neatening.settings().map_err(|error| Trouble { code: "bad-option".into(), text: error.to_string() })?;
-    let (fit, templates) = settings.fit(stroke, templates)?;
-    let mut fitted =
-        Fitted { spline: fit.spline, report: fit.report, warnings: fit.warnings, templates, drawn: Vec::new() };
-    if !pins.is_empty() {
-        match passed(&fitted.spline, pins, PIN_REACH * neatening.pixel_size) {
-            Ok(spline) => fitted.spline = spline,
-            Err(error) => fitted.warnings.push(Warning { code: "not-held".into(), text: error.to_string() }),
-        }
+    let (fit, templates) = settings.fit(stroke, templates, &mut ())?;
+    let Fit { spline, report, warnings } = fit;
+    let free = Fitted { spline, report, warnings, templates, unpinned: None, drawn: Vec::new() };
+    Ok(held(free, stroke, pins, neatening.pixel_size).into())
+}
+
+/// A curve held through places, if there are any. If it cannot be, it stays as it is, with a warning.
+fn held(free: Fitted, stroke: &Stroke, pins: &[Pin], pixel_size: f64) -> Fitted {
+    if pins.is_empty() {
+        return free;
     }
-    Ok(fitted.into())
+    let Fitted { spline, report, mut warnings, templates, drawn, .. } = free;
+    let (report, held) = match passed(&spline, pins, PIN_REACH * pixel_size) {
+        Ok(held) => (measured(&held, stroke, &report, pixel_size), held),
+        Err(error) => {
+            warnings.push(Warning { code: NOT_HELD.into(), text: error.to_string() });
+            (report, spline.clone())
+        }
+    };
+    Fitted { spline: held, report, warnings, templates, unpinned: Some(spline), drawn }
+}
+
+/// The word for a curve that could not be held through its places.
+pub(crate) const NOT_HELD: &str = "not-held";
+
+/// The figures of a curve that was changed after it was fitted; how it was found stays as told.
+fn measured(spline: &Spline, stroke: &Stroke, fit: &Report, pixel_size: f64) -> Report {
+    let Report { max_deviation, rms_deviation, inflections, pieces, .. } = measure(spline, stroke, pixel_size);
+    Report { max_deviation, rms_deviation, inflections, pieces, ..fit.clone() }
 }
 
 /// How far a curve changes to both sides of a place through which it is held, px.

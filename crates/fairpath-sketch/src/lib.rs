@@ -3,6 +3,7 @@
 //! | to … | use |
 //! | --- | --- |
 //! | choose a method and its options by name | [`Method`], [`Settings`], [`Neatening`] |
+//! | show a form of all that can be set, and set it | [`Parameter`], [`Kind`], [`with_parameter`], [`parameters_of`] |
 //! | hold curves with the strokes that they come from | [`Drawing`], [`Curve`] |
 //! | undo and redo | [`History`] |
 //! | open and save, import, export | [`decode_drawing`], [`encode_drawing`], [`import`], [`splines_of`], [`strokes_of`] |
@@ -12,30 +13,35 @@
 //!
 //! Nothing here knows of pixels on a screen, reads a clock or starts a thread.
 
+mod answers;
 mod background;
 mod carry;
+mod corrections;
 mod curve;
 mod desk;
 mod drawing;
 mod edits;
 mod fairness;
 mod file;
+mod follow;
 mod hand;
 mod history;
 mod job;
 mod method;
 mod neatening;
+mod parameters;
 mod session;
 
 pub use background::Background;
 pub use carry::carried;
 pub use curve::{Curve, CurveId, Pin};
-pub use desk::{Desk, Slot, Ticket};
+pub use desk::{Desk, Slot, Ticket, Wish};
 pub use drawing::Drawing;
 pub use file::{DrawingError, decode_drawing, encode_drawing, import, is_drawing, splines_of, strokes_of};
 pub use hand::{Hand, Over};
 pub use history::History;
 pub use job::{Answer, Fitted, Job, Trouble, run, run_encoded_job};
 pub use method::{Method, Settings};
-pub use neatening::{Neatening, SettingError};
+pub use neatening::Neatening;
+pub use parameters::{Kind, Parameter, SettingError, parameters_of, read_value, show_value, with_parameter};
 pub use session::Session;

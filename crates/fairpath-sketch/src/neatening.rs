@@ -2,11 +2,11 @@
 
 use crate::fairness;
 use crate::method::{Method, Settings};
+use crate::parameters::SettingError;
 use fairpath_fit::{Closing, Preset};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use std::collections::BTreeMap;
-use thiserror::Error;
 
 /// How a stroke is to be neatened.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -42,18 +42,6 @@ impl Default for Neatening {
     }
 }
 
-/// Why an option cannot be set.
-#[derive(Clone, Debug, PartialEq, Eq, Error)]
-#[error("{name} = {value} cannot be set: {problem}")]
-pub struct SettingError {
-    /// The option.
-    pub name: String,
-    /// The value.
-    pub value: String,
-    /// What is wrong with it.
-    pub problem: String,
-}
-
 impl Neatening {
     /// The name that files have for how the curve came about.
     #[must_use]
@@ -75,20 +63,8 @@ impl Neatening {
             *closed = self.closed;
         }
         for (name, value) in &self.set {
-            settings = with(&settings, name, value)?;
+            settings = settings.with(name, value)?;
         }
         Ok(settings)
     }
-}
-
-/// Settings with one option changed.
-fn with(settings: &Settings, name: &str, value: &Value) -> Result<Settings, SettingError> {
-    let error = |problem: String| SettingError { name: name.into(), value: value.to_string(), problem };
-    let mut written = serde_json::to_value(settings).map_err(|e| error(e.to_string()))?;
-    let options = written["options"].as_object_mut().ok_or_else(|| error("there are no options".into()))?;
-    if !options.contains_key(name) {
-        return Err(error("there is no such option".into()));
-    }
-    options.insert(name.to_owned(), value.clone());
-    serde_json::from_value(written).map_err(|e| error(e.to_string()))
 }

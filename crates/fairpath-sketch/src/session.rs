@@ -2,15 +2,16 @@
 //! out.
 
 use crate::background::Background;
+use crate::corrections::Correction;
 use crate::curve::{Curve, CurveId, Pin};
-use crate::desk::{Desk, Slot, Ticket};
+use crate::desk::{Desk, Slot, Ticket, Wish};
 use crate::drawing::Drawing;
 use crate::hand::Hand;
 use crate::history::History;
-use crate::job::{Answer, Fitted, Job, Trouble};
+use crate::job::{Job, Trouble};
 use crate::neatening::Neatening;
 use fairpath_curve::{Point, Similarity, Spline, Vec2};
-use fairpath_fit::{OversketchOptions, Stroke, Template, TemplateError, TemplateSet};
+use fairpath_fit::{Template, TemplateError, TemplateSet};
 use fairpath_shape::{InflateOptions, Mesh};
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -29,7 +30,10 @@ pub struct Session {
     neatening: Neatening,
     /// The last thing that did not work.
     trouble: Option<Trouble>,
-    surface: Option<(CurveId, Arc<Mesh>)>,
+    /// The surface that was made last, and the curve as it was then.
+    pub(crate) surface: Option<(Arc<Curve>, Arc<Mesh>)>,
+    /// Strokes drawn over curves that are not yet drawn into them, in their order.
+    pub(crate) corrections: Vec<Correction>,
 }
 
 impl Session {
@@ -37,7 +41,7 @@ impl Session {
     #[must_use]
     pub fn new(drawing: Drawing) -> Self {
         let mut session = Self { history: History::new(drawing), ..Self::default() };
-        session.want_unfitted();
+        session.want_all();
         session
     }
 
@@ -71,7 +75,7 @@ impl Session {
         if !add {
             self.selection.clear();
         }
-        let Some(id) = id else { return };
+        let Some(id) = id.filter(|&id| self.drawing().curve(id).is_some()) else { return };
         if !(add && self.selection.remove(&id)) {
             self.selection.insert(id);
         }
@@ -109,9 +113,8 @@ impl Session {
     /// Neatens the selected curves in another way, and strokes to come. Moves of a slider are one step of undo until
     /// [`end_gesture`](Self::end_gesture).
     pub fn set_neatening(&mut self, neatening: Neatening) {
-        if let Err(error) = neatening.settings() {
-            self.trouble = Some(Trouble { code: "bad-option".into(), text: error.to_string() });
-            return;
+        if let Err(trouble) = checked(&neatening) {
+            return self.report(trouble);
         }
         self.neatening = neatening;
         let (wish, selection) = (&self.neatening, &self.selection);
@@ -124,11 +127,11 @@ impl Session {
                 let own = &curve.neatening;
                 let neatening = Neatening { pixel_size: own.pixel_size, closed: own.closed, ..wish.clone() };
                 if neatening != *own {
-                    drawing.put(Curve { neatening, fitted: false, ..(**curve).clone() });
+                    drawing.put(Curve { neatening, unpinned: None, fitted: false, ..(**curve).clone() });
                 }
             }
         });
-        self.want_unfitted();
+        self.want_all();
     }
 
     /// Ends what counts as one step of undo.
@@ -136,9 +139,11 @@ impl Session {
         self.history.end_gesture();
     }
 
-    /// Undoes the last deed.
+    /// Undoes the last deed; a stroke over a curve that has not changed it yet is the last one.
     pub fn undo(&mut self) {
-        if self.history.undo() {
+        if self.drop_correction() {
+            self.want_all();
+        } else if self.history.undo() {
             self.turned();
         }
     }
@@ -153,10 +158,11 @@ impl Session {
     /// The drawing is another one: what was under way is of no use.
     fn turned(&mut self) {
         self.desk.clear();
+        self.corrections.clear();
         let drawing = self.history.drawing();
         self.selection.retain(|&id| drawing.curve(id).is_some());
         self.surface = None;
-        self.want_unfitted();
+        self.want_all();
     }
 
     /// Begins anew with another drawing, which cannot be undone.
@@ -165,7 +171,7 @@ impl Session {
         *self = Self { neatening, desk: std::mem::take(&mut self.desk), ..Self::default() };
         self.desk.clear();
         self.history = History::new(drawing);
-        self.want_unfitted();
+        self.want_all();
     }
 
     /// Makes a French curve of the selected curve, in a set of this drawing's own, whose name is given back.
@@ -204,7 +210,7 @@ impl Session {
     pub fn restore(&mut self, drawing: Drawing) {
         self.open(Drawing::new(drawing.unit, drawing.y));
         self.history.act("Restore", |empty| *empty = drawing);
-        self.want_unfitted();
+        self.want_all();
     }
 
     /// Adds curves, such as those of a file, and selects them.
@@ -213,114 +219,44 @@ impl Session {
             let put = |mut curve: Curve| {
                 curve.id = drawing.new_id();
                 let id = curve.id;
+                // Files know curves by their names.
+                if drawing.curves().iter().any(|other| other.name == curve.name) {
+                    curve.name = drawing.free_name(&curve.name);
+                }
                 drawing.put(curve);
                 id
             };
             curves.into_iter().map(put).collect()
         });
         self.selection = ids;
-        self.want_unfitted();
-    }
-
-    /// Wants every curve that is still to be fitted.
-    pub(crate) fn want_unfitted(&mut self) {
-        let drawing = self.history.drawing();
-        for curve in drawing.curves().iter().filter(|curve| !curve.fitted) {
-            let job = Job::Fit {
-                stroke: curve.stroke.clone(),
-                templates: drawing.templates_for(&curve.neatening),
-                neatening: curve.neatening.clone(),
-                pins: curve.pins.clone(),
-            };
-            self.desk.want_also(Slot::Curve(curve.id), job);
-        }
+        self.want_all();
     }
 
     /// The next job for the worker, when that is free.
     pub fn next_job(&mut self) -> Option<(Ticket, Job)> {
-        self.desk.next()
+        self.desk.next_job()
     }
 
     /// Whether everything that was wanted is done.
     #[must_use]
     pub fn is_settled(&self) -> bool {
-        self.desk.is_idle()
-    }
-
-    /// Takes the worker's answer to a job.
-    pub fn take_answer(&mut self, ticket: Ticket, answer: Answer) {
-        let Some(slot) = self.desk.done(ticket) else { return };
-        match (slot, answer) {
-            (Slot::Curve(id), Answer::Curve(fitted)) => self.fitted(id, *fitted),
-            (Slot::Curve(id), Answer::Failed(trouble)) => {
-                self.give_up(id);
-                self.trouble = Some(trouble);
-            }
-            (Slot::Live | Slot::Preview, Answer::Curve(fitted)) => {
-                if let Some(hand) = &mut self.hand {
-                    hand.take(slot, *fitted);
-                }
-            }
-            // A stroke that has only begun has no curve yet.
-            (Slot::Live | Slot::Preview, Answer::Failed(_)) => {}
-            (Slot::Oversketch(id), Answer::Curve(fitted)) => self.oversketched(id, *fitted),
-            (Slot::Surface(id), Answer::Surface(mesh)) => self.surface = Some((id, Arc::new(mesh))),
-            (Slot::Oversketch(_) | Slot::Surface(_), Answer::Failed(trouble)) => self.trouble = Some(trouble),
-            (slot, _) => {
-                let text = format!("the worker gave {slot:?} something that it did not ask for");
-                self.trouble = Some(Trouble { code: "bad-answer".into(), text });
-            }
-        }
-    }
-
-    /// A curve gets the shape that the worker found.
-    fn fitted(&mut self, id: CurveId, fitted: Fitted) {
-        // While a slider moves, an older wish is shown until the newest is done.
-        let newest = !self.desk.is_busy(Slot::Curve(id));
-        self.history.amend(|drawing| {
-            let Some(curve) = drawing.curve(id).map(|curve| (**curve).clone()) else { return };
-            let Fitted { spline, report, warnings, templates, .. } = fitted;
-            drawing.put(Curve { spline, report, warnings, templates, fitted: newest, ..curve });
-        });
-    }
-
-    /// A curve keeps the shape that it has.
-    fn give_up(&mut self, id: CurveId) {
-        self.history.amend(|drawing| {
-            if let Some(curve) = drawing.curve(id) {
-                drawing.put(Curve { fitted: true, ..(**curve).clone() });
-            }
-        });
-    }
-
-    /// A curve gets the shape that a stroke over it gave it.
-    fn oversketched(&mut self, id: CurveId, fitted: Fitted) {
-        self.history.act("Oversketch", |drawing| {
-            if let Some(curve) = drawing.curve(id) {
-                drawing.put(curve.edited(fitted.spline, &fitted.drawn));
-            }
-        });
-    }
-
-    /// Wants a stroke drawn into a curve.
-    pub(crate) fn want_oversketch(&mut self, id: CurveId, stroke: Stroke, options: OversketchOptions) {
-        let Some(curve) = self.drawing().curve(id) else { return };
-        let job = Job::Oversketch { spline: curve.spline.clone(), stroke, options: Box::new(options) };
-        self.desk.drop_wishes(Slot::Curve(id));
-        self.desk.want(Slot::Oversketch(id), job);
+        self.desk.is_idle() && self.corrections.is_empty()
     }
 
     /// Wants the surface of the selected curve.
     pub fn inflate(&mut self, options: InflateOptions) {
         let Some(curve) = self.selected() else { return };
-        let (id, spline) = (curve.id, curve.spline.clone());
-        self.desk.want(Slot::Surface(id), Job::Inflate { spline, options });
+        let spline = curve.spline.clone();
+        let wish = Wish::new(Slot::Surface(curve.id), Some(curve));
+        self.desk.want(wish, Job::Inflate { spline, options });
     }
 
     /// The surface that was made last and the curve that it comes from, as long as that is as it was.
     #[must_use]
     pub fn surface(&self) -> Option<(CurveId, &Arc<Mesh>)> {
-        self.surface.as_ref().map(|(id, mesh)| (*id, mesh))
+        let (of, mesh) = self.surface.as_ref()?;
+        let is_as_it_was = self.drawing().curve(of.id).is_some_and(|curve| curve.spline == of.spline);
+        is_as_it_was.then_some((of.id, mesh))
     }
 
     /// Shows no surface any more.
@@ -347,6 +283,7 @@ impl Session {
                 drawing.put(change(curve));
             }
         });
+        self.want_all();
     }
 
     /// Gives one curve another shape.
@@ -356,7 +293,14 @@ impl Session {
 
     /// Moves the selected curves; moves that follow each other are one step.
     pub fn move_selected(&mut self, by: Vec2) {
+        if !by.is_finite() {
+            return;
+        }
         let selection = &self.selection;
+        for &id in selection {
+            // What is under way is for another place.
+            self.desk.drop_wishes(Slot::Curve(id));
+        }
         self.history.act_on("Move", |drawing| {
             for &id in selection {
                 if let Some(curve) = drawing.curve(id) {
@@ -364,7 +308,7 @@ impl Session {
                 }
             }
         });
-        self.want_unfitted();
+        self.want_all();
     }
 
     /// Deletes the selected curves.
@@ -378,6 +322,7 @@ impl Session {
                 drawing.remove(id);
             }
         });
+        self.want_all();
     }
 
     /// Copies the selected curves beside themselves and selects the copies.
@@ -391,21 +336,33 @@ impl Session {
 
     /// Holds a curve through a point; while the pin is dragged, under one step.
     pub fn pin(&mut self, id: CurveId, index: Option<usize>, pin: Pin) -> Option<usize> {
+        if !(pin.point.is_finite() && (0.0..=1.0).contains(&pin.share)) {
+            return None;
+        }
         let mut at = None;
         self.history.act_on("Pull", |drawing| {
             let Some(curve) = drawing.curve(id) else { return };
             let mut curve = (**curve).clone();
+            if curve.pins.is_empty() && curve.fitted {
+                curve.unpinned = Some(Arc::new(curve.spline.clone()));
+            }
             let i = index.filter(|&i| i < curve.pins.len()).unwrap_or(curve.pins.len());
-            if i == curve.pins.len() {
-                curve.pins.push(pin)
-            } else {
-                curve.pins[i] = pin
+            match curve.pins.get_mut(i) {
+                Some(old) => *old = pin,
+                None => curve.pins.push(pin),
             }
             curve.fitted = false;
             drawing.put(curve);
             at = Some(i);
         });
-        self.want_unfitted();
+        self.want_all();
         at
     }
+}
+
+/// Whether a neatening can be done.
+fn checked(neatening: &Neatening) -> Result<(), Trouble> {
+    let bad = |error: &dyn std::error::Error| Trouble { code: "bad-option".into(), text: error.to_string() };
+    let settings = neatening.settings().map_err(|error| bad(&error))?;
+    settings.check().map_err(|error| bad(&error))
 }

@@ -6,11 +6,11 @@ pub mod args;
 mod commands;
 mod interrupt;
 mod output;
-pub mod parameters;
 mod pictures;
 mod printer;
 mod progress;
 pub mod reference;
+mod settings;
 pub mod stopwatch;
 
 use std::process::ExitCode;

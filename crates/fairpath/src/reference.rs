@@ -9,12 +9,12 @@ use fairpath_fit::{
 };
 use fairpath_io::{SHIPPED_TEMPLATES, shipped_templates};
 use fairpath_shape::InflateOptions;
+use fairpath_sketch::{Parameter, parameters_of, show_value};
 use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::Value;
 
-use crate::args::{Cli, preset_name};
-use crate::parameters::{self, Parameter};
+use crate::args::Cli;
 use crate::pictures;
 
 /// Every reference: file name and text.
@@ -58,16 +58,22 @@ fn parameters_page() -> String {
     );
     let values = Preset::ALL.map(|preset| serde_json::to_value(FitOptions::preset(preset)).unwrap_or(Value::Null));
     for preset in Preset::ALL {
-        let _ = write!(text, " {} |", preset_name(preset));
+        let _ = write!(text, " {} |", preset.name());
     }
     let _ = writeln!(text, " meaning |\n| --- | --- | --- |{} --- |", " ---: |".repeat(Preset::ALL.len()));
-    for parameter in parameters::all::<FitOptions>() {
-        let _ = write!(text, "| `{}` | {} | {} |", parameter.name, cell(&parameter.unit), cell(&parameter.kind));
+    for parameter in parameters_of::<FitOptions>() {
+        let _ = write!(
+            text,
+            "| `{}` | {} | {} |",
+            parameter.name,
+            cell(&parameter.unit),
+            cell(&parameter.kind.to_string())
+        );
         let usual = &values[0][&parameter.name];
         for (i, value) in values.iter().enumerate() {
             let value = &value[&parameter.name];
             // Only what a preset changes is shown in its column.
-            let shown = if i > 0 && value == usual { String::new() } else { parameters::show(value) };
+            let shown = if i > 0 && value == usual { String::new() } else { show_value(value) };
             let _ = write!(text, " {shown} |");
         }
         let _ = writeln!(text, " {} |", cell(&parameter.description));
@@ -101,12 +107,9 @@ fn plain_table<T: JsonSchema + Serialize + Default>(title: &str, source: &str) -
         "\n## {title}\n\n{source}\n\n\
          | parameter | unit | kind | default | meaning |\n| --- | --- | --- | ---: | --- |\n",
     );
-    let values = serde_json::to_value(T::default()).unwrap_or(Value::Null);
-    // Options within options have a table of their own.
-    let listed = parameters::all::<T>().into_iter().filter(|parameter| !values[&parameter.name].is_object());
-    for Parameter { name, unit, description, kind } in listed {
-        let value = parameters::show(&values[&name]);
-        let _ = writeln!(text, "| `{name}` | {} | {} | {value} | {} |", cell(&unit), cell(&kind), cell(&description));
+    for Parameter { name, unit, description, kind, default } in parameters_of::<T>() {
+        let (unit, kind, meaning) = (cell(&unit), cell(&kind.to_string()), cell(&description));
+        let _ = writeln!(text, "| `{name}` | {unit} | {kind} | {} | {meaning} |", show_value(&default));
     }
     text
 }

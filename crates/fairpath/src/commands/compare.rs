@@ -4,16 +4,16 @@ use std::path::Path;
 use std::sync::Arc;
 
 use anyhow::{Result, bail};
-use clap::ValueEnum;
 use fairpath_fit::Preset;
 use fairpath_io::picture::{Comb, PictureOptions, draw_comparison};
 use fairpath_io::{ComparedMethod, Comparison, MethodSummary, SplineFile, StrokeFile};
+use fairpath_sketch::Method;
 
 use super::fit_inputs::{Inputs, Job};
 use super::fitting::{fitted, in_parallel};
 use super::method_options::{Asked, MethodOptions};
 use super::{Ending, fit_report, template_sets};
-use crate::args::{CompareArgs, Method, Stats};
+use crate::args::{CompareArgs, Stats};
 use crate::interrupt;
 use crate::output::{Ready, check_place};
 use crate::printer::{Printer, columns};
@@ -45,7 +45,7 @@ pub(crate) fn run(args: &CompareArgs, printer: &mut Printer) -> Result<Ending> {
 
 /// The methods with what they make of the strokes.
 fn compared(args: &CompareArgs, inputs: &Inputs, printer: &mut Printer) -> Result<Vec<ComparedMethod>> {
-    let methods = if args.methods.is_empty() { Method::value_variants() } else { &args.methods };
+    let methods = if args.methods.is_empty() { &Method::ALL[..] } else { &args.methods };
     let source = args.templates.clone().unwrap_or_else(|| template_sets::USUAL.into());
     let templates = Arc::new(template_sets::load(&source, None, printer)?);
     let mut jobs: Vec<(Method, Job<'_>)> = Vec::new();
@@ -67,8 +67,7 @@ fn compared(args: &CompareArgs, inputs: &Inputs, printer: &mut Printer) -> Resul
                     Err(failure) => results.failures.push(failure),
                 }
             }
-            let about = method.to_possible_value().and_then(|value| value.get_help().map(ToString::to_string));
-            ComparedMethod { name: method.name(), about: about.unwrap_or_default(), results }
+            ComparedMethod { name: method.name().into(), about: method.about().into(), results }
         })
         .collect())
 }

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use anyhow::{Result, bail};
 use fairpath_fit::{Preset, TemplateSet};
 use fairpath_io::{Failure, SplineEntry, SplineFile};
+use fairpath_sketch::Method;
 
 use super::Ending;
 use super::fit_inputs::{Inputs, Job};
@@ -13,7 +14,7 @@ use super::fit_report;
 use super::fitting::{fitted, in_parallel};
 use super::method_options::MethodOptions;
 use super::template_sets;
-use crate::args::{FitArgs, Method, OutputFormat, Stats, preset_name};
+use crate::args::{FitArgs, OutputFormat, Stats};
 use crate::output::{Destination, Ready};
 use crate::printer::Printer;
 use crate::{interrupt, pictures};
@@ -107,7 +108,7 @@ fn check_combination(args: &FitArgs, output: Option<&Destination>, picture: Opti
         }
     }
     if args.preset != Preset::Default && args.method != Method::ShortestPath {
-        bail!("--preset {}: the method {} has no presets", preset_name(args.preset), args.method.name());
+        bail!("--preset {}: the method {} has no presets", args.preset.name(), args.method.name());
     }
     if args.stages.as_ref().is_some_and(|folder| folder.exists() && !folder.is_dir()) {
         bail!("--stages: expected a folder, and a file of that name exists");

@@ -97,7 +97,7 @@ impl Inputs {
         let mut jobs: Vec<Job<'_>> = Vec::with_capacity(self.file.strokes.len());
         let mut known: Option<(f64, MethodOptions)> = None;
         for (stroke, &size) in self.file.strokes.iter().zip(&self.pixel_sizes) {
-            // Strokes of one file share their options; making them means a trial fit.
+            // Strokes of one file share their options.
             let options = match &known {
                 Some((before, options)) if *before == size => options.clone(),
                 _ => options(Some(size))?,

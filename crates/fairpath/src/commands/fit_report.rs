@@ -3,13 +3,13 @@
 use anyhow::{Context, Result};
 use fairpath_curve::{Continuity, Kind};
 use fairpath_io::{SplineEntry, SplineFile};
+use fairpath_sketch::{Parameter, show_value};
 use serde_json::{Value, json};
 
 use super::method_options::MethodOptions;
 use crate::args::OutputFormat;
-use crate::parameters::Parameter;
+use crate::pictures;
 use crate::printer::{Printer, columns};
-use crate::{parameters, pictures};
 
 /// Warnings beyond this many are only counted: a thousand strokes would bury what matters.
 const MOST_NOTES: usize = 20;
@@ -22,14 +22,12 @@ pub(crate) fn parameters(options: &MethodOptions) -> String {
 
 /// The same for any parameters with their values.
 pub(crate) fn listed(list: &[Parameter], values: &Value) -> String {
-    let head: Vec<String> = list
-        .iter()
-        .map(|parameter| format!("{} = {}", parameter.name, parameters::show(&values[&parameter.name])))
-        .collect();
+    let head: Vec<String> =
+        list.iter().map(|parameter| format!("{} = {}", parameter.name, show_value(&values[&parameter.name]))).collect();
     let width = head.iter().map(|text| text.chars().count()).max().unwrap_or(0);
     let mut text = String::new();
     for (parameter, head) in list.iter().zip(head) {
-        let unit = if parameter.unit.is_empty() { &parameter.kind } else { &parameter.unit };
+        let unit = if parameter.unit.is_empty() { parameter.kind.to_string() } else { parameter.unit.clone() };
         text.push_str(&format!("{head:<width$}  [{unit}] {}\n", parameter.description));
     }
     text

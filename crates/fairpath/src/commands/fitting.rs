@@ -4,11 +4,11 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use anyhow::{Context, Result};
 use fairpath_io::{Failure, SplineEntry, YAxis};
+use fairpath_sketch::Method;
 use rayon::prelude::*;
 
 use super::fit_inputs::Job;
 use super::method_options::{Fitted, Steps};
-use crate::args::Method;
 use crate::progress::Progress;
 use crate::stopwatch::Stopwatch;
 

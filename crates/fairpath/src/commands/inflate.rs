@@ -7,6 +7,7 @@ use fairpath_io::{
     Failure, ReadOptions, SplineEntry, SurfaceEntry, SurfaceFile, SurfaceFormat, encode_surfaces, read_splines,
 };
 use fairpath_shape::{InflateOptions, inflate};
+use fairpath_sketch::parameters_of;
 use rayon::prelude::*;
 
 use super::Ending;
@@ -14,14 +15,14 @@ use super::fit_report::{self, plain};
 use crate::args::{InflateArgs, SurfaceOutput};
 use crate::output::{Destination, Ready};
 use crate::printer::{Printer, columns};
-use crate::{interrupt, parameters};
+use crate::{interrupt, settings};
 
 pub(crate) fn run(args: &InflateArgs, printer: &mut Printer) -> Result<Ending> {
-    let options = parameters::apply(&InflateOptions::default(), &args.set)?;
+    let options = settings::apply(&InflateOptions::default(), &args.set)?;
     options.check()?;
     if args.list_parameters {
         let values = serde_json::to_value(&options)?;
-        printer.result(&fit_report::listed(&parameters::all::<InflateOptions>(), &values))?;
+        printer.result(&fit_report::listed(&parameters_of::<InflateOptions>(), &values))?;
         return Ok(Ending::Done);
     }
     let to = args.output.as_deref().map(|path| Destination::<SurfaceOutput>::new(path, args.format)).transpose()?;

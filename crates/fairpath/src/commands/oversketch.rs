@@ -5,6 +5,7 @@ use fairpath_curve::Spline;
 use fairpath_fit::{FitOptions, OversketchOptions, Oversketched, Stroke, oversketch, oversketch_region};
 use fairpath_io::picture::Correction;
 use fairpath_io::{ReadOptions, SplineFile, StrokeFile, read_splines, read_strokes};
+use fairpath_sketch::parameters_of;
 
 use super::Ending;
 use super::fit_inputs::pixel_size;
@@ -12,7 +13,7 @@ use super::fit_report::plain;
 use crate::args::{OutputFormat, OversketchArgs};
 use crate::output::{Destination, Ready};
 use crate::printer::Printer;
-use crate::{interrupt, parameters, pictures};
+use crate::{interrupt, pictures, settings};
 
 /// A stroke that was applied.
 struct Done<'a> {
@@ -85,14 +86,14 @@ fn options(args: &OversketchArgs, strokes: &StrokeFile) -> Result<OversketchOpti
         fit: FitOptions { pixel_size: size, ..FitOptions::preset(args.preset) },
         ..OversketchOptions::default()
     };
-    let own = parameters::all::<OversketchOptions>();
+    let own = parameters_of::<OversketchOptions>();
     for setting in &args.set {
         let key = setting.split('=').next().unwrap_or_default().trim();
         let setting = std::slice::from_ref(setting);
-        if own.iter().any(|parameter| parameter.name == key && key != "fit") {
-            options = parameters::apply(&options, setting)?;
+        if own.iter().any(|parameter| parameter.name == key) {
+            options = settings::apply(&options, setting)?;
         } else {
-            options.fit = parameters::apply(&options.fit, setting)?;
+            options.fit = settings::apply(&options.fit, setting)?;
         }
     }
     options.validate()?;

@@ -1,0 +1,102 @@
+//! Going along a curve: points that follow each other come in, the place of the curve that belongs to each goes out, on the branch of the one before.
+
+use fairpath_curve::{Point, Spline};
+
+/// A place of a curve near a point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Place {
+    pub(crate) station: f64,
+    pub(crate) distance: f64,
+}
+
+/// Someone who goes along a curve.
+pub(crate) struct Follower<'a> {
+    spline: &'a Spline,
+    /// Stations of the segments' starts.
+    starts: Vec<f64>,
+    length: f64,
+    at: Option<f64>,
+}
+
+impl<'a> Follower<'a> {
+    pub(crate) fn new(spline: &'a Spline) -> Self {
+        let mut station = 0.0;
+        let starts = spline.segments().iter().map(|segment| {
+            let start = station;
+            station += segment.length;
+            start
+        });
+        Self { spline, starts: starts.collect(), length: spline.length(), at: None }
+    }
+
+    /// The place that belongs to a point: the nearest within `reach` along the curve of where the follower is, if that is no further away than `near` or
+    /// not twice as far as the nearest of all; else the nearest of all.
+    pub(crate) fn peek(&self, point: Point, reach: f64, near: f64) -> Place {
+        let local = match self.at {
+            Some(at) => self.within(at, reach, point),
+            // Nobody is anywhere yet: who draws an open curve begins at its start, if that is where the point is.
+            None if !self.spline.is_closed() => self.within(0.0, reach, point),
+            None => None,
+        };
+        if let Some(place) = local.filter(|place| place.distance <= near) {
+            return place;
+        }
+        let nearest = self.spline.nearest(point);
+        let station = self.starts[nearest.segment] + nearest.s;
+        let any = Place { station, distance: nearest.distance };
+        local.filter(|place| place.distance <= 2.0 * any.distance).unwrap_or(any)
+    }
+
+    /// Goes to a station and gives it back.
+    pub(crate) fn go_to(&mut self, station: f64) -> f64 {
+        self.at = Some(station);
+        station
+    }
+
+    /// The place nearest to a point within a reach along the curve of a station.
+    fn within(&self, at: f64, reach: f64, point: Point) -> Option<Place> {
+        let n = self.starts.len();
+        let here = self.starts.partition_point(|&start| start <= at).clamp(1, n) - 1;
+        let mut best: Option<Place> = None;
+        let mut look = |i: usize| {
+            let segment = &self.spline.segments()[i];
+            for found in segment.nearest_all(point) {
+                let station = self.starts[i] + found.s;
+                let closer = best.is_none_or(|best| found.distance < best.distance);
+                if closer && self.apart(station, at) <= reach {
+                    best = Some(Place { station, distance: found.distance });
+                }
+            }
+        };
+        look(here);
+        let closed = self.spline.is_closed();
+        // Forward from the end of this segment, and backward from its start, as far as the reach goes.
+        let mut gone = self.starts[here] + self.spline.segments()[here].length - at;
+        let mut looked = 1;
+        for step in 1..n {
+            let i = here + step;
+            if gone > reach || (i >= n && !closed) {
+                break;
+            }
+            look(i % n);
+            gone += self.spline.segments()[i % n].length;
+            looked += 1;
+        }
+        let mut gone = at - self.starts[here];
+        for step in 1..=n - looked.min(n) {
+            if gone > reach || (step > here && !closed) {
+                break;
+            }
+            let i = (here + n - step) % n;
+            look(i);
+            gone += self.spline.segments()[i].length;
+        }
+        best
+    }
+
+    /// How far two stations are apart along the curve.
+    fn apart(&self, a: f64, b: f64) -> f64 {
+        let straight = (a - b).abs();
+        if self.spline.is_closed() { straight.min(self.length - straight) } else { straight }
+    }
+}
