@@ -8,9 +8,11 @@ mod canvas;
 mod example;
 mod icons;
 mod panels;
+mod surface_view;
 mod theme;
 mod view;
 mod worker;
 
 pub use app::App;
+pub use surface_view::SurfaceView;
 pub use worker::{InlineWorker, Worker};
