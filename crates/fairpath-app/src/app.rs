@@ -1,7 +1,10 @@
 //! The application: what it holds, and the order in which a frame goes.
 
 use crate::canvas::Canvas;
+use crate::documents::Document;
+use crate::files::Files;
 use crate::panels::{self, Panels};
+use crate::store::Store;
 use crate::view::View;
 use crate::worker::Worker;
 use crate::{example, theme};
@@ -49,6 +52,8 @@ pub(crate) struct Shown {
     pub(crate) plot: bool,
     /// The figures of the selected curve, beside the canvas.
     pub(crate) inspector: bool,
+    /// The French curves that the selected curve is made of.
+    pub(crate) templates: bool,
     /// Parts of French curves are laid while a stroke is drawn.
     pub(crate) greedy: bool,
 }
@@ -63,6 +68,7 @@ impl Default for Shown {
             comb_scale: 1500.0,
             plot: false,
             inspector: true,
+            templates: true,
             greedy: false,
         }
     }
@@ -77,15 +83,19 @@ pub struct App {
     pub(crate) tool: Tool,
     pub(crate) shown: Shown,
     pub(crate) panels: Panels,
+    pub(crate) document: Document,
+    pub(crate) files: Files,
+    pub(crate) store: Box<dyn Store>,
     /// All is to be shown as soon as the canvas has its size.
-    fit_view: bool,
+    pub(crate) fit_view: bool,
 }
 
 impl App {
-    /// The application with a worker of the caller's, on the drawing of a first start.
+    /// The application with a worker and a store of the caller's, on what the store has kept, or the drawing of a first start.
     #[must_use]
-    pub fn new(ctx: &Context, worker: Box<dyn Worker>) -> Self {
+    pub fn new(ctx: &Context, worker: Box<dyn Worker>, mut store: Box<dyn Store>) -> Self {
         theme::install(ctx);
+        store.ask();
         let mut app = Self {
             session: Session::new(first_drawing()),
             worker,
@@ -94,6 +104,9 @@ impl App {
             tool: Tool::default(),
             shown: Shown::default(),
             panels: Panels::default(),
+            document: Document::default(),
+            files: Files::default(),
+            store,
             fit_view: true,
         };
         app.panels.hint = true;
@@ -108,7 +121,11 @@ impl App {
     #[must_use]
     pub fn on_desktop(ctx: &Context) -> Self {
         let worker = crate::worker::ThreadWorker::start(ctx.clone()).expect("the system gives a thread");
-        Self::new(ctx, Box::new(worker))
+        let store: Box<dyn Store> = match crate::store::FileStore::of_user() {
+            Some(store) => Box::new(store),
+            None => Box::new(crate::store::NoStore),
+        };
+        Self::new(ctx, Box::new(worker), store)
     }
 
     /// The work on the drawing.
@@ -155,6 +172,8 @@ impl App {
 impl eframe::App for App {
     fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {
         self.take_answers();
+        self.read_files(ui.ctx());
+        self.keep(ui.ctx());
         panels::shortcuts::read(self, ui);
         panels::plot::show(self, ui);
         CentralPanel::default().frame(Frame::NONE).show(ui, |ui| {

@@ -5,14 +5,20 @@
 
 mod app;
 mod canvas;
+mod documents;
 mod example;
+mod files;
 mod icons;
 mod panels;
+mod store;
 mod surface_view;
 mod theme;
 mod view;
 mod worker;
 
 pub use app::App;
+#[cfg(not(target_arch = "wasm32"))]
+pub use store::FileStore;
+pub use store::{NoStore, Store};
 pub use surface_view::SurfaceView;
 pub use worker::{InlineWorker, Worker};

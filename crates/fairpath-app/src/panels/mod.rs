@@ -2,6 +2,7 @@
 
 mod hint;
 mod inspector;
+mod menu;
 mod neaten;
 pub(crate) mod plot;
 pub(crate) mod shortcuts;

@@ -1,10 +1,12 @@
 //! The method and the slider from as drawn to fairest, under the canvas's middle.
 
+use super::widgets::icon_button;
 use super::{MARGIN, float};
 use crate::app::App;
+use crate::icons::Icon;
 use eframe::egui::{Align2, ComboBox, Slider, Ui, vec2};
 use fairpath_fit::Preset;
-use fairpath_sketch::Method;
+use fairpath_sketch::{Method, Neatening};
 
 /// What a person calls a method.
 pub(crate) const fn method_title(method: Method) -> &'static str {
@@ -50,6 +52,9 @@ pub(crate) fn show(app: &mut App, ui: &Ui) {
                     },
                 );
             }
+            if wish.method == Method::FrenchCurve {
+                french_curves(app, ui, &mut wish);
+            }
             ui.separator();
             ui.weak("raw");
             let slider = ui.add(Slider::new(&mut wish.fairness, 0.0..=1.0).show_value(false).text("Fairness"));
@@ -62,4 +67,27 @@ pub(crate) fn show(app: &mut App, ui: &Ui) {
             }
         });
     });
+}
+
+/// Which set of French curves, whether it is laid while drawing, and the selected curve as one more.
+fn french_curves(app: &mut App, ui: &mut Ui, wish: &mut Neatening) {
+    ComboBox::from_id_salt("templates").width(110.0).selected_text(wish.templates.as_str()).show_ui(ui, |ui| {
+        for name in app.session.drawing().template_set_names() {
+            ui.selectable_value(&mut wish.templates, name.clone(), name);
+        }
+    });
+    let (shown, live) = (app.shown.templates, app.shown.greedy);
+    if icon_button(ui, Icon::Eye, "French curves over the stroke", "", shown, true).clicked() {
+        app.shown.templates = !shown;
+    }
+    if icon_button(ui, Icon::Zap, "Lay French curves while drawing", "", live, true).clicked() {
+        app.shown.greedy = !live;
+    }
+    let selected = app.session.selected().is_some();
+    if icon_button(ui, Icon::CopyPlus, "Make the selected curve a French curve", "", false, selected).clicked()
+        && let Some(set) = app.session.author_template()
+    {
+        app.panels.say(format!("A French curve more in {set:?}."));
+        wish.templates = set;
+    }
 }

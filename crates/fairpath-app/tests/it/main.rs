@@ -1,0 +1,4 @@
+//! The application, driven as hands and keys drive it.
+
+mod draw;
+mod hands;
