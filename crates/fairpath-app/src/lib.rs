@@ -13,6 +13,7 @@ mod pace;
 mod panels;
 pub mod pen;
 mod store;
+mod surface_view;
 mod theme;
 mod view;
 #[cfg(target_arch = "wasm32")]
@@ -24,4 +25,5 @@ pub use pace::{PaceReport, Times};
 #[cfg(not(target_arch = "wasm32"))]
 pub use store::FileStore;
 pub use store::{NoStore, Store};
+pub use surface_view::SurfaceView;
 pub use worker::{InlineWorker, Worker};

@@ -2,3 +2,4 @@
 
 mod draw;
 mod hands;
+mod surface_view;

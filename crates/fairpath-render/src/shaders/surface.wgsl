@@ -40,7 +40,7 @@ const WRAP = 0.12;
 // Sharpness of the gloss.
 const SHININESS = 36.0;
 // Light of the stripes, dark and bright, before the shading that keeps the shape visible.
-const DARK_STRIPE = 0.012;
+const DARK_STRIPE = 0.003;
 const BRIGHT_STRIPE = 0.80;
 const PI = 3.14159265;
 
