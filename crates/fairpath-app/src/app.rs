@@ -6,6 +6,7 @@ use crate::files::Files;
 use crate::pace::{Pace, PaceReport};
 use crate::panels::{self, Panels};
 use crate::store::Store;
+use crate::surface_view::SurfaceView;
 use crate::view::View;
 use crate::worker::Worker;
 use crate::{example, theme};
@@ -92,6 +93,8 @@ pub struct App {
     pub(crate) store: Box<dyn Store>,
     /// All is to be shown as soon as the canvas has its size.
     pub(crate) fit_view: bool,
+    /// Where surfaces are seen, if there is a graphics device that draws them.
+    pub(crate) surface_view: Option<SurfaceView>,
 }
 
 impl App {
@@ -114,6 +117,7 @@ impl App {
             files: Files::default(),
             store,
             fit_view: true,
+            surface_view: None,
         };
         app.panels.hint = true;
         app
@@ -248,7 +252,10 @@ impl App {
 }
 
 impl eframe::App for App {
-    fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {
+    fn ui(&mut self, ui: &mut Ui, frame: &mut eframe::Frame) {
+        if self.surface_view.is_none() {
+            self.surface_view = frame.wgpu_render_state().map(SurfaceView::new);
+        }
         self.frame(ui);
         self.end_frame();
     }

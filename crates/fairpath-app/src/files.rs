@@ -56,6 +56,7 @@ impl Files {
     }
 
     /// Where what happened is to be told.
+    #[cfg(target_arch = "wasm32")]
     pub(crate) fn outbox(&self) -> Sender<FileEvent> {
         self.outbox.clone()
     }

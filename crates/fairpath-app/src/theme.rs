@@ -89,6 +89,8 @@ pub(crate) fn install(ctx: &Context) {
     let mut fonts = FontDefinitions::default();
     icons::install(&mut fonts);
     ctx.set_fonts(fonts);
+    // Where the system does not say, paper is white.
+    ctx.options_mut(|options| options.fallback_theme = Theme::Light);
     for theme in [Theme::Light, Theme::Dark] {
         ctx.set_style_of(theme, style(theme));
     }

@@ -35,6 +35,7 @@ const TABLE: &[(Modifiers, Key, &str, Deed)] = &[
     (NONE, Key::K, "Corner or smooth", |app, _| app.tool = Tool::Corner),
     (NONE, Key::J, "Join two selected curves", |app, _| app.join_selected()),
     (NONE, Key::O, "Close or open", |app, _| app.toggle_closed()),
+    (NONE, Key::I, "Inflate a closed curve", |app, _| app.inflate_selected()),
     (NONE, Key::Num1, "Colours", |app, _| {
         app.shown.ink = if app.shown.ink == Ink::Kinds { Ink::Plain } else { Ink::Kinds };
     }),
