@@ -60,6 +60,11 @@ impl<'a> Follower<'a> {
         let mut best: Option<Place> = None;
         let mut look = |i: usize| {
             let segment = &self.spline.segments()[i];
+            // No place of a segment is nearer than its start is, less its length: most of a curve of very many segments need not be looked at.
+            let bound = (segment.start - point).hypot() - segment.length;
+            if best.is_some_and(|best| bound > best.distance) {
+                return;
+            }
             for found in segment.nearest_all(point) {
                 let station = self.starts[i] + found.s;
                 let closer = best.is_none_or(|best| found.distance < best.distance);

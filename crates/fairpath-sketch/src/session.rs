@@ -249,8 +249,10 @@ impl Session {
 
     /// Moves the selected curves; moves that follow each other are one step.
     pub fn move_selected(&mut self, by: Vec2) {
-        if !by.is_finite() {
-            return;
+        let stays = |id: &CurveId| self.drawing().curve(*id).is_none_or(|curve| stays_exact(curve, by));
+        if !self.selection.iter().all(stays) {
+            let text = "so far away the drawing would lose its shape; move it by less".into();
+            return self.report(Trouble { code: "too-far".into(), text });
         }
         let selection = &self.selection;
         for &id in selection {
@@ -314,6 +316,15 @@ impl Session {
         self.want_all();
         at
     }
+}
+
+/// A coordinate of more than this many lengths of a curve has too few digits left for its shape.
+const FARTHEST: f64 = 1e8;
+
+/// Whether a curve keeps its shape there.
+fn stays_exact(curve: &Curve, by: Vec2) -> bool {
+    let start = curve.spline.start_pose().point + by;
+    start.is_finite() && start.to_vec2().hypot() <= FARTHEST * curve.spline.length()
 }
 
 /// Whether a neatening can be done.
