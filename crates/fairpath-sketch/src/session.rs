@@ -1,6 +1,7 @@
 //! A person at work: deeds and answers of the worker come in, a drawing with its history, jobs for the worker and what is to be shown of the work in hand go
 //! out.
 
+use crate::boxes::Boxes;
 use crate::corrections::Correction;
 use crate::curve::{Curve, CurveId, Pin};
 use crate::desk::{Desk, Slot, Ticket, Wish};
@@ -11,6 +12,7 @@ use crate::job::{Job, Trouble};
 use crate::neatening::Neatening;
 use fairpath_curve::{Point, Spline, Vec2};
 use fairpath_shape::{InflateOptions, Mesh};
+use std::cell::RefCell;
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
@@ -27,6 +29,8 @@ pub struct Session {
     trouble: Option<Trouble>,
     /// The surface that was made last, and the curve as it was then.
     pub(crate) surface: Option<(Arc<Curve>, Arc<Mesh>)>,
+    /// The boxes around the curves, as of when they were last asked for.
+    boxes: RefCell<Boxes>,
     /// Strokes drawn over curves that are not yet drawn into them, in their order.
     pub(crate) corrections: Vec<Correction>,
 }
@@ -223,9 +227,9 @@ impl Session {
     /// The curve nearest to a point within `reach`, and its nearest place: a station.
     #[must_use]
     pub fn nearest(&self, point: Point, reach: f64) -> Option<(CurveId, f64)> {
-        let within = |curve: &&Arc<Curve>| curve.spline.bounding_box().inflate(reach, reach).contains(point);
-        let candidates = self.drawing().curves().iter().filter(within);
-        let measured = candidates.map(|curve| (curve, curve.spline.nearest(point)));
+        let mut boxes = self.boxes.borrow_mut();
+        boxes.update(self.drawing().curves(), self.history.version());
+        let measured = boxes.near(point, reach).map(|curve| (curve, curve.spline.nearest(point)));
         let near = measured.filter(|(_, nearest)| nearest.distance <= reach);
         let best = near.min_by(|a, b| a.1.distance.total_cmp(&b.1.distance));
         best.map(|(curve, nearest)| (curve.id, curve.spline.station(nearest.segment, nearest.s)))
