@@ -87,6 +87,7 @@ fn refitting_edited_curves_of_the_corpus_stays_near_them() {
             "{edit:12} {:3} curves: mean {mean:.2} px, median {median:.2} px, largest {largest:.2} px",
             distances.len()
         );
+        assert!(mean < 3.5 && largest < 8.0, "{edit}: {distances:?}");
     }
 }
 
@@ -121,6 +122,21 @@ fn where_a_curve_crosses_itself_points_stay_in_order() {
     let points = &session.drawing().curve(ids[0]).unwrap().stroke.points;
     let largest = points.windows(2).map(|pair| (pair[1] - pair[0]).hypot()).fold(0.0, f64::max);
     assert!(largest < 20.0, "{largest}");
+}
+
+#[test]
+fn where_a_stroke_comes_back_over_itself_points_stay_in_order() {
+    // The stem of a letter down and up again, and on.
+    let stem = crate::common::points(90, |u| match u {
+        u if u < 0.3 => (300.0, 300.0 + 500.0 * u),
+        u if u < 0.6 => (300.0, 450.0 - 500.0 * (u - 0.3)),
+        u => (300.0 + 250.0 * (u - 0.6), 300.0 + 300.0 * (u - 0.6) * (u - 0.6)),
+    });
+    let (mut session, ids) = session_of(std::slice::from_ref(&stem));
+    session.extend(ids[0], CurveEnd::End, 30.0, Extension::Curvature);
+    let points = &session.drawing().curve(ids[0]).unwrap().stroke.points;
+    assert_eq!(points[..stem.len() - 2], stem[..stem.len() - 2]);
+    assert!(refitted_apart(&session, ids[0]) < 3.0);
 }
 
 #[test]
