@@ -36,6 +36,12 @@ const LAYERS: &[Layer] = &[
     },
     Layer { name: "fairpath-io", workspace: &["fairpath-curve", "fairpath-fit", "fairpath-shape"], outside: None },
     Layer {
+        name: "fairpath-render",
+        // Files and the fitter are for the pictures of its examples.
+        workspace: &["fairpath-curve", "fairpath-shape", "fairpath-fit", "fairpath-io"],
+        outside: Some(&["bytemuck", "glam", "pollster", "thiserror", "wgpu"]),
+    },
+    Layer {
         name: "fairpath-sketch",
         workspace: &["fairpath-curve", "fairpath-fit", "fairpath-shape", "fairpath-io"],
         outside: Some(&["data-encoding", "libm", "schemars", "serde", "serde_json", "thiserror"]),
@@ -47,7 +53,14 @@ const LAYERS: &[Layer] = &[
     },
     Layer {
         name: "fairpath-app",
-        workspace: &["fairpath-curve", "fairpath-fit", "fairpath-shape", "fairpath-io", "fairpath-sketch"],
+        workspace: &[
+            "fairpath-curve",
+            "fairpath-fit",
+            "fairpath-shape",
+            "fairpath-io",
+            "fairpath-render",
+            "fairpath-sketch",
+        ],
         outside: None,
     },
     Layer {

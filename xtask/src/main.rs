@@ -6,6 +6,7 @@ mod evaluate;
 mod fuzz;
 mod generate;
 mod growth;
+mod judge_web;
 mod judges;
 mod layers;
 mod limits;
@@ -18,6 +19,7 @@ mod table1;
 mod test;
 mod tools;
 mod tree;
+mod web;
 
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -36,7 +38,7 @@ struct Cli {
 enum Chore {
     /// The one test command: style, lints, tests, documentation, layers and every outside judge.
     Test,
-    /// The judges alone: kernel, DXF, SVG, glTF and the page of a comparison.
+    /// The judges alone: kernel, DXF, SVG, glTF, the page of a comparison, and the application's page in a browser.
     Judge,
     /// Fit every file of the shared data folder, judge the results and hold them against the limits.
     Evaluate {
@@ -82,6 +84,23 @@ enum Chore {
     },
     /// Check who depends on whom.
     Layers,
+    /// Drive the application's page in a browser, alone of all judges.
+    JudgeWeb,
+    /// Build the page that runs the application in a browser, and say how large it is.
+    Web {
+        /// For tests: soon built, and twice as large.
+        #[arg(long)]
+        quick: bool,
+        /// Then hand it out on this machine.
+        #[arg(long)]
+        serve: bool,
+        /// The port for that.
+        #[arg(long, default_value_t = 8080, requires = "serve")]
+        port: u16,
+        /// Whose compiler to use.
+        #[arg(long, value_enum, default_value = "auto")]
+        toolchain: web::Toolchain,
+    },
     /// Fit one stroke of a file and print this process's peak memory in kB.
     #[command(hide = true)]
     PeakMemory {
@@ -104,6 +123,11 @@ fn main() -> ExitCode {
         Chore::Fuzz { seconds } => fuzz::run(seconds),
         Chore::Generate { check } => generate::run(check),
         Chore::Layers => layers::run().map(|note| println!("{note}")),
+        Chore::JudgeWeb => test::judge_web(),
+        Chore::Web { quick, serve, port, toolchain } => {
+            let kind = if quick { web::Kind::Quick } else { web::Kind::Release };
+            web::run(kind, toolchain, serve.then_some(port))
+        }
         Chore::PeakMemory { file, name } => bench::peak_memory(&file, &name),
     };
     match outcome {

@@ -4,7 +4,7 @@ use anyhow::{Result, bail};
 
 use crate::process::{cargo, run as run_command};
 use crate::steps::{Outcome, Steps};
-use crate::{evaluate, generate, judges, layers, process, rectilinear, tools, tree};
+use crate::{evaluate, generate, judge_web, judges, layers, process, rectilinear, tools, tree, web};
 
 /// Runs everything that can tell whether the project is sound.
 pub(crate) fn run() -> Result<()> {
@@ -17,7 +17,9 @@ pub(crate) fn run() -> Result<()> {
             "clippy and rustc warn of nothing",
         )
     });
+    steps.step("lints of the page", page_lints);
     steps.step("bans in the cores", core_bans);
+    steps.step("graphics", || tools::graphics().map(Outcome::Passed));
     steps.step("tests", tests);
     steps.step("documentation", || {
         let mut doc = cargo(&["doc", "--quiet", "--workspace", "--no-deps"]);
@@ -43,9 +45,7 @@ pub(crate) fn judge() -> Result<()> {
 }
 
 fn add_judges(steps: &mut Steps) {
-    steps.step("release build", || {
-        command(&["build", "--release", "--package", "fairpath"], "the command line is built")
-    });
+    steps.step("release build", release_build);
     steps.step("judges' tools", || {
         tools::python().map(|python| Outcome::Passed(format!("{} is ready", python.display())))
     });
@@ -54,11 +54,33 @@ fn add_judges(steps: &mut Steps) {
     steps.step("judge: SVG", judges::svg);
     steps.step("judge: glTF", judges::gltf);
     steps.step("judge: page", judges::page);
+    steps.step("judge: web", judge_web::step);
+}
+
+/// The page of the application alone.
+pub(crate) fn judge_web() -> Result<()> {
+    let mut steps = Steps::default();
+    steps.step("release build", release_build);
+    steps.step("judge: web", judge_web::step);
+    steps.finish()
+}
+
+fn release_build() -> Result<Outcome> {
+    command(&["build", "--release", "--package", "fairpath"], "the command line is built")
 }
 
 fn command(args: &[&str], note: &str) -> Result<Outcome> {
     run_command(&mut cargo(args))?;
     Ok(Outcome::Passed(note.to_owned()))
+}
+
+/// The lints of what only the browser's build has.
+fn page_lints() -> Result<Outcome> {
+    Ok(if web::lint()? {
+        Outcome::Passed("clippy and rustc warn of nothing in the browser's build either".into())
+    } else {
+        Outcome::Skipped("this compiler has no standard library for the browser's machine".into())
+    })
 }
 
 /// The cores read no clock and no file, start no thread, and take no platform's mathematics.

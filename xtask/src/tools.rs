@@ -54,6 +54,19 @@ pub(crate) fn rsvg_convert() -> Result<()> {
     if process::exists("rsvg-convert") { Ok(()) } else { apt("librsvg2-bin") }
 }
 
+/// Makes sure that there is a driver to draw with, Mesa's in software where there is no graphics card.
+pub(crate) fn graphics() -> Result<String> {
+    /// Where each driver for Vulkan has a file that tells of it.
+    const FOLDERS: [&str; 3] = ["/usr/share/vulkan/icd.d", "/usr/local/share/vulkan/icd.d", "/etc/vulkan/icd.d"];
+    let known =
+        || FOLDERS.iter().filter_map(|folder| fs::read_dir(folder).ok()).any(|mut files| files.next().is_some());
+    // Elsewhere the system brings its own.
+    if cfg!(target_os = "linux") && !known() {
+        apt("mesa-vulkan-drivers")?;
+    }
+    Ok("there is a driver to draw with".into())
+}
+
 /// The browser, if it can be had.
 pub(crate) fn chromium() -> Result<&'static str> {
     const NAMES: [&str; 3] = ["chromium", "chromium-browser", "google-chrome"];
@@ -64,35 +77,49 @@ pub(crate) fn chromium() -> Result<&'static str> {
     Ok(NAMES[0])
 }
 
-/// The folder of the glTF validator, installed with Node's package manager in the version that the lock file pins.
+/// Where a program lies that is found by its name.
+pub(crate) fn path_of(program: &str) -> Result<PathBuf> {
+    let folders = std::env::var_os("PATH").unwrap_or_default();
+    let found = std::env::split_paths(&folders).map(|folder| folder.join(program)).find(|path| path.is_file());
+    found.with_context(|| format!("{program} is in no folder of PATH"))
+}
+
+/// The folder of the glTF validator.
 pub(crate) fn gltf_validator() -> Result<PathBuf> {
+    node_packages("gltf")
+}
+
+/// The folder where a judge of `xtask/judges/` finds its packages, installed with Node's package manager in the versions that its lock
+/// file pins.
+pub(crate) fn node_packages(judge: &str) -> Result<PathBuf> {
     for (program, package) in [("node", "nodejs"), ("npm", "npm")] {
         if !process::exists(program) {
             apt(package)?;
         }
     }
-    let from = tree::root().join("xtask/judges/gltf");
-    let folder = tree::cache().join("gltf");
-    let lock =
-        fs::read_to_string(from.join("package-lock.json")).context("the lock file of the glTF judge is missing")?;
+    let from = tree::root().join("xtask/judges").join(judge);
+    let folder = tree::cache().join(judge);
+    let lock = fs::read_to_string(from.join("package-lock.json"))
+        .with_context(|| format!("the lock file of the judge {judge} is missing"))?;
     let stamp = folder.join("installed-lock.json");
     // The stamp is written last, so a broken installation is never taken for a good one.
     if fs::read_to_string(&stamp).is_ok_and(|text| text == lock) {
         return Ok(folder);
     }
-    fs::create_dir_all(&folder).context("cannot make cache/gltf")?;
+    fs::create_dir_all(&folder).with_context(|| format!("cannot make {}", folder.display()))?;
     for name in ["package.json", "package-lock.json"] {
-        fs::copy(from.join(name), folder.join(name)).with_context(|| format!("cannot copy {name} to cache/gltf"))?;
+        fs::copy(from.join(name), folder.join(name))
+            .with_context(|| format!("cannot copy {name} to {}", folder.display()))?;
     }
     let mut install = Command::new("npm");
     install.args(["ci", "--no-audit", "--no-fund", "--ignore-scripts", "--loglevel", "error"]).current_dir(&folder);
-    process::run(&mut install).context("cannot install the glTF validator")?;
+    process::run(&mut install).with_context(|| format!("cannot install the packages of the judge {judge}"))?;
     fs::write(&stamp, lock).with_context(|| format!("cannot write {}", stamp.display()))?;
     Ok(folder)
 }
 
 /// Installs a system package, which only the superuser of a Debian system may.
-fn apt(package: &str) -> Result<()> {
+pub(crate) fn apt(package: &str) -> Result<()> {
     let user = process::capture(Command::new("id").arg("-u")).map(|ran| ran.text).unwrap_or_default();
     if user.trim() != "0" || !process::exists("apt-get") {
         bail!("install the system package {package} (Debian's name) and run this again");

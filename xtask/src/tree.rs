@@ -43,7 +43,7 @@ pub(crate) fn fairpath() -> Result<PathBuf> {
 }
 
 /// The folder of all builds, wherever cargo was told to put it: this program lies in the folder of its profile.
-fn target_folder() -> Result<PathBuf> {
+pub(crate) fn target_folder() -> Result<PathBuf> {
     let exe = env::current_exe().context("cannot tell where this program is")?;
     Ok(exe.ancestors().nth(2).context("this program lies in no folder of a profile")?.to_path_buf())
 }

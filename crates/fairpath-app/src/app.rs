@@ -1,7 +1,12 @@
 //! The application: what it holds, and the order in which a frame goes.
 
 use crate::canvas::Canvas;
+use crate::documents::Document;
+use crate::files::Files;
+use crate::pace::{Pace, PaceReport};
 use crate::panels::{self, Panels};
+use crate::store::Store;
+use crate::surface_view::SurfaceView;
 use crate::view::View;
 use crate::worker::Worker;
 use crate::{example, theme};
@@ -49,6 +54,8 @@ pub(crate) struct Shown {
     pub(crate) plot: bool,
     /// The figures of the selected curve, beside the canvas.
     pub(crate) inspector: bool,
+    /// The French curves that the selected curve is made of.
+    pub(crate) templates: bool,
     /// Parts of French curves are laid while a stroke is drawn.
     pub(crate) greedy: bool,
 }
@@ -63,6 +70,7 @@ impl Default for Shown {
             comb_scale: 1500.0,
             plot: false,
             inspector: true,
+            templates: true,
             greedy: false,
         }
     }
@@ -77,15 +85,24 @@ pub struct App {
     pub(crate) tool: Tool,
     pub(crate) shown: Shown,
     pub(crate) panels: Panels,
+    pace: Pace,
+    /// The curve whose stroke ended in this frame.
+    drawn: Option<CurveId>,
+    pub(crate) document: Document,
+    pub(crate) files: Files,
+    pub(crate) store: Box<dyn Store>,
     /// All is to be shown as soon as the canvas has its size.
-    fit_view: bool,
+    pub(crate) fit_view: bool,
+    /// Where surfaces are seen, if there is a graphics device that draws them.
+    pub(crate) surface_view: Option<SurfaceView>,
 }
 
 impl App {
-    /// The application with a worker of the caller's, on the drawing of a first start.
+    /// The application with a worker and a store of the caller's, on what the store has kept, or the drawing of a first start.
     #[must_use]
-    pub fn new(ctx: &Context, worker: Box<dyn Worker>) -> Self {
+    pub fn new(ctx: &Context, worker: Box<dyn Worker>, mut store: Box<dyn Store>) -> Self {
         theme::install(ctx);
+        store.ask();
         let mut app = Self {
             session: Session::new(first_drawing()),
             worker,
@@ -94,7 +111,13 @@ impl App {
             tool: Tool::default(),
             shown: Shown::default(),
             panels: Panels::default(),
+            pace: Pace::default(),
+            drawn: None,
+            document: Document::default(),
+            files: Files::default(),
+            store,
             fit_view: true,
+            surface_view: None,
         };
         app.panels.hint = true;
         app
@@ -107,8 +130,84 @@ impl App {
     #[cfg(not(target_arch = "wasm32"))]
     #[must_use]
     pub fn on_desktop(ctx: &Context) -> Self {
+        let store: Box<dyn Store> = match crate::store::FileStore::of_user() {
+            Some(store) => Box::new(store),
+            None => Box::new(crate::store::NoStore),
+        };
+        Self::with_thread(ctx, store)
+    }
+
+    /// The application with a thread that fits, and a store of the caller's.
+    ///
+    /// # Panics
+    /// When the system gives no thread.
+    #[cfg(not(target_arch = "wasm32"))]
+    #[must_use]
+    pub fn with_thread(ctx: &Context, store: Box<dyn Store>) -> Self {
         let worker = crate::worker::ThreadWorker::start(ctx.clone()).expect("the system gives a thread");
-        Self::new(ctx, Box::new(worker))
+        Self::new(ctx, Box::new(worker), store)
+    }
+
+    /// How fast it was so far.
+    #[must_use]
+    pub fn pace(&self) -> PaceReport {
+        self.pace.report()
+    }
+
+    /// Begins to time anew.
+    pub fn forget_pace(&mut self) {
+        self.pace = Pace::default();
+    }
+
+    /// Everything about the drawing and the work on it as JSON, for programs that drive the application: the members `settled`, `unsaved`, `pace` and
+    /// `drawing`, which is a file of it.
+    #[must_use]
+    pub fn state_json(&self) -> String {
+        let drawing = fairpath_sketch::encode_drawing(self.session.drawing()).unwrap_or_default();
+        let drawing: serde_json::Value = serde_json::from_slice(&drawing).unwrap_or_default();
+        serde_json::json!({
+            "settled": self.is_settled(),
+            "unsaved": self.is_unsaved(),
+            "pace": self.pace(),
+            "drawing": drawing,
+        })
+        .to_string()
+    }
+
+    /// Makes a picture without a window, up to the triangles that a graphics device would be given.
+    pub fn frame_without_window(&mut self, ctx: &Context, input: egui::RawInput) {
+        let output = ctx.run_ui(input, |ui| self.frame(ui));
+        let triangles = ctx.tessellate(output.shapes, output.pixels_per_point);
+        self.end_frame();
+        drop(triangles);
+    }
+
+    fn frame(&mut self, ui: &mut Ui) {
+        let before = self.session.drawing().curves().len();
+        self.pace.begin(self.session.hand().is_some());
+        self.take_answers();
+        self.read_files(ui.ctx());
+        self.keep(ui.ctx());
+        panels::shortcuts::read(self, ui);
+        panels::plot::show(self, ui);
+        CentralPanel::default().frame(Frame::NONE).show(ui, |ui| {
+            self.canvas.show(ui, &mut self.session, &mut self.view, self.tool, &self.shown);
+            if std::mem::take(&mut self.fit_view) {
+                self.fit_view();
+                ui.ctx().request_repaint();
+            }
+            panels::show(self, ui);
+        });
+        if let Some(trouble) = self.session.take_trouble() {
+            self.panels.say(trouble.text);
+        }
+        self.take_answers();
+        let curves = self.session.drawing().curves();
+        self.drawn = if curves.len() == before + 1 { curves.last().map(|curve| curve.id) } else { None };
+    }
+
+    fn end_frame(&mut self) {
+        self.pace.end(self.drawn.take(), self.session.drawing());
     }
 
     /// The work on the drawing.
@@ -153,22 +252,18 @@ impl App {
 }
 
 impl eframe::App for App {
-    fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {
-        self.take_answers();
-        panels::shortcuts::read(self, ui);
-        panels::plot::show(self, ui);
-        CentralPanel::default().frame(Frame::NONE).show(ui, |ui| {
-            self.canvas.show(ui, &mut self.session, &mut self.view, self.tool, &self.shown);
-            if std::mem::take(&mut self.fit_view) {
-                self.fit_view();
-                ui.ctx().request_repaint();
-            }
-            panels::show(self, ui);
-        });
-        if let Some(trouble) = self.session.take_trouble() {
-            self.panels.say(trouble.text);
+    fn ui(&mut self, ui: &mut Ui, frame: &mut eframe::Frame) {
+        if self.surface_view.is_none() {
+            self.surface_view = frame.wgpu_render_state().map(SurfaceView::new);
         }
-        self.take_answers();
+        self.frame(ui);
+        self.end_frame();
+    }
+
+    /// The page asks the application about its drawing.
+    #[cfg(target_arch = "wasm32")]
+    fn as_any_mut(&mut self) -> Option<&mut dyn std::any::Any> {
+        Some(&mut *self)
     }
 
     fn clear_color(&self, visuals: &egui::Visuals) -> [f32; 4] {

@@ -5,12 +5,25 @@
 
 mod app;
 mod canvas;
+mod documents;
 mod example;
+mod files;
 mod icons;
+mod pace;
 mod panels;
+pub mod pen;
+mod store;
+mod surface_view;
 mod theme;
 mod view;
+#[cfg(target_arch = "wasm32")]
+pub mod web;
 mod worker;
 
 pub use app::App;
+pub use pace::{PaceReport, Times};
+#[cfg(not(target_arch = "wasm32"))]
+pub use store::FileStore;
+pub use store::{NoStore, Store};
+pub use surface_view::SurfaceView;
 pub use worker::{InlineWorker, Worker};

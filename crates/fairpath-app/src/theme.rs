@@ -24,6 +24,8 @@ pub(crate) struct Palette {
     pub(crate) preview: Color32,
     pub(crate) selected: Color32,
     pub(crate) accent: Color32,
+    /// Of French curves that lie beside each other.
+    pub(crate) templates: [Color32; 4],
 }
 
 const LIGHT: Palette = Palette {
@@ -41,6 +43,12 @@ const LIGHT: Palette = Palette {
     preview: Color32::from_rgb(0xdb, 0x7d, 0x11),
     selected: Color32::from_rgb(0xcf, 0xdf, 0xfb),
     accent: Color32::from_rgb(0x26, 0x62, 0xd4),
+    templates: [
+        Color32::from_rgb(0xc8, 0x7a, 0x1e),
+        Color32::from_rgb(0x1f, 0x8f, 0x8a),
+        Color32::from_rgb(0x9b, 0x4f, 0xb3),
+        Color32::from_rgb(0x6b, 0x83, 0x1d),
+    ],
 };
 
 const DARK: Palette = Palette {
@@ -58,6 +66,12 @@ const DARK: Palette = Palette {
     preview: Color32::from_rgb(0xff, 0xb2, 0x4a),
     selected: Color32::from_rgb(0x22, 0x35, 0x57),
     accent: Color32::from_rgb(0x74, 0xa7, 0xff),
+    templates: [
+        Color32::from_rgb(0xf0, 0xa8, 0x4e),
+        Color32::from_rgb(0x55, 0xc9, 0xc3),
+        Color32::from_rgb(0xcf, 0x8d, 0xe6),
+        Color32::from_rgb(0xb0, 0xcc, 0x5c),
+    ],
 };
 
 impl Palette {
@@ -75,6 +89,8 @@ pub(crate) fn install(ctx: &Context) {
     let mut fonts = FontDefinitions::default();
     icons::install(&mut fonts);
     ctx.set_fonts(fonts);
+    // Where the system does not say, paper is white.
+    ctx.options_mut(|options| options.fallback_theme = Theme::Light);
     for theme in [Theme::Light, Theme::Dark] {
         ctx.set_style_of(theme, style(theme));
     }

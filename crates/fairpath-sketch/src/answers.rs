@@ -21,7 +21,7 @@ impl Session {
                 Some(spline) => {
                     Job::Hold { spline: (**spline).clone(), stroke, pins, pixel_size: neatening.pixel_size }
                 }
-                None => Job::Fit { templates: drawing.template_set(&neatening.templates), stroke, neatening, pins },
+                None => Job::Fit { templates: drawing.templates_for(&neatening), stroke, neatening, pins },
             };
             self.desk.want_also(Wish::new(slot, Some(curve)), job);
         }

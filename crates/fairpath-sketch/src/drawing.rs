@@ -2,9 +2,11 @@
 
 use crate::background::Background;
 use crate::curve::{Curve, CurveId};
+use crate::method::Method;
+use crate::neatening::Neatening;
 use fairpath_fit::TemplateSet;
-use fairpath_io::{Unit, YAxis};
-use std::sync::Arc;
+use fairpath_io::{SHIPPED_TEMPLATES, Unit, YAxis, shipped_templates};
+use std::sync::{Arc, OnceLock};
 
 /// What a person has drawn. A copy shares all curves with the original, so that keeping many states costs little.
 #[derive(Clone, Debug, Default)]
@@ -108,10 +110,29 @@ impl Drawing {
         Some(self.curves.remove(at))
     }
 
+    /// The names of all sets of French curves: the drawing's own, then those that come along.
+    #[must_use]
+    pub fn template_set_names(&self) -> Vec<String> {
+        let own = self.template_sets.iter().map(|set| set.name().to_owned());
+        own.chain(SHIPPED_TEMPLATES.map(str::to_owned)).collect()
+    }
+
     /// The set of French curves of that name: the drawing's own, or one that comes along.
     #[must_use]
     pub fn template_set(&self, name: &str) -> Option<Arc<TemplateSet>> {
         let own = self.template_sets.iter().find(|set| set.name() == name).cloned();
-        own.or_else(|| fairpath_io::shipped_templates(name).map(Arc::new))
+        own.or_else(|| shipped().iter().find(|set| set.name() == name).cloned())
     }
+
+    /// The set that a method needs, if it needs one.
+    #[must_use]
+    pub fn templates_for(&self, neatening: &Neatening) -> Option<Arc<TemplateSet>> {
+        if neatening.method == Method::FrenchCurve { self.template_set(&neatening.templates) } else { None }
+    }
+}
+
+/// The sets that come along, read once.
+fn shipped() -> &'static [Arc<TemplateSet>] {
+    static SETS: OnceLock<Vec<Arc<TemplateSet>>> = OnceLock::new();
+    SETS.get_or_init(|| SHIPPED_TEMPLATES.into_iter().filter_map(shipped_templates).map(Arc::new).collect())
 }

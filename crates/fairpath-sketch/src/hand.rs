@@ -169,7 +169,7 @@ impl Session {
 
     fn fit_job(&self, stroke: Stroke, pixel_size: f64) -> Job {
         let neatening = Neatening { pixel_size, ..self.neatening().clone() };
-        let templates = self.drawing().template_set(&neatening.templates);
+        let templates = self.drawing().templates_for(&neatening);
         Job::Fit { stroke, neatening, templates, pins: Vec::new() }
     }
 

@@ -1,6 +1,7 @@
 //! A person at work: deeds and answers of the worker come in, a drawing with its history, jobs for the worker and what is to be shown of the work in hand go
 //! out.
 
+use crate::background::Background;
 use crate::boxes::Boxes;
 use crate::corrections::Correction;
 use crate::curve::{Curve, CurveId, Pin};
@@ -10,11 +11,15 @@ use crate::hand::Hand;
 use crate::history::History;
 use crate::job::{Job, Trouble};
 use crate::neatening::Neatening;
-use fairpath_curve::{Point, Spline, Vec2};
+use fairpath_curve::{Point, Similarity, Spline, Vec2};
+use fairpath_fit::{Template, TemplateError, TemplateSet};
 use fairpath_shape::{InflateOptions, Mesh};
 use std::cell::RefCell;
 use std::collections::BTreeSet;
 use std::sync::Arc;
+
+/// The name of the set of French curves that a person makes.
+const OWN_TEMPLATES: &str = "mine";
 
 /// A drawing and the work on it.
 #[derive(Debug, Default)]
@@ -170,6 +175,45 @@ impl Session {
         *self = Self { neatening, desk: std::mem::take(&mut self.desk), ..Self::default() };
         self.desk.clear();
         self.history = History::new(drawing);
+        self.want_all();
+    }
+
+    /// Makes a French curve of the selected curve, in a set of this drawing's own, whose name is given back.
+    pub fn author_template(&mut self) -> Option<String> {
+        let curve = self.selected()?.clone();
+        // Templates are in px, whatever the drawing's unit and nearness.
+        let to_px = Similarity { scale: 1.0 / curve.neatening.pixel_size, ..Similarity::IDENTITY };
+        let made = self.history.act("French curve", |drawing| {
+            let own = drawing.template_sets.iter().position(|set| set.name() == OWN_TEMPLATES);
+            let mut templates = own.map_or_else(Vec::new, |i| drawing.template_sets[i].templates().to_vec());
+            let taken = |name: &String| templates.iter().any(|template| template.name() == name.as_str());
+            let name = (1..).map(|i| format!("{} {i}", curve.name)).find(|name| !taken(name)).unwrap_or_default();
+            templates.push(Template::new(name, curve.spline.transformed(&to_px))?);
+            let set = Arc::new(TemplateSet::new(OWN_TEMPLATES, templates)?);
+            match own {
+                Some(i) => drawing.template_sets[i] = set,
+                None => drawing.template_sets.push(set),
+            }
+            Ok::<(), TemplateError>(())
+        });
+        match made {
+            Ok(()) => Some(OWN_TEMPLATES.to_owned()),
+            Err(error) => {
+                self.report(Trouble { code: "no-template".into(), text: error.to_string() });
+                None
+            }
+        }
+    }
+
+    /// Puts a picture behind the drawing, or takes it away.
+    pub fn set_background(&mut self, background: Option<Arc<Background>>) {
+        self.history.act("Picture", |drawing| drawing.background = background);
+    }
+
+    /// Goes on with a drawing that was kept, from which undo leads back to an empty one.
+    pub fn restore(&mut self, drawing: Drawing) {
+        self.open(Drawing::new(drawing.unit, drawing.y));
+        self.history.act("Restore", |empty| *empty = drawing);
         self.want_all();
     }
 

@@ -1,10 +1,12 @@
 //! What hands do on the canvas: events of the pointer come in, deeds of the session and moves of the view go out.
 
 use crate::app::{Shown, Tool};
+use crate::pen::{self, PenPhase, PenSample};
 use crate::view::View;
 use eframe::egui::{self, Event, Key, Modifiers, PointerButton, Pos2, Response, TouchId, TouchPhase, Ui};
 use fairpath_fit::{CurveEnd, Extension};
 use fairpath_sketch::{CurveId, Pin, Session};
+use std::collections::VecDeque;
 
 /// A pointer within this of a curve is on it, points.
 pub(crate) const GRASP: f64 = 8.0;
@@ -54,6 +56,10 @@ pub(crate) struct Hands {
     fingers: Fingers,
     /// Pressure of the pen or finger that is down, where it tells.
     force: Option<f64>,
+    /// What the pen did at its own rate and no stroke has taken yet; always empty where the events of the interface tell everything.
+    pen: VecDeque<PenSample>,
+    /// Whether the stroke in hand consists of these.
+    by_pen: bool,
 }
 
 impl Hands {
@@ -74,6 +80,7 @@ impl Hands {
     ) {
         let (events, time, space, modifiers) =
             ui.input(|i| (i.events.clone(), i.time, i.key_down(Key::Space), i.modifiers));
+        self.pen.extend(pen::drain());
         let over = canvas.contains_pointer();
         let mut moved = false;
         for event in &events {
@@ -90,11 +97,20 @@ impl Hands {
                     moved = true;
                 }
                 Event::PointerButton { pos, pressed: false, .. } if self.busy() => {
+                    self.follow_pen(session, view);
                     self.release(pos, modifiers, session, view);
                 }
                 Event::PointerGone | Event::WindowFocused(false) => self.cancel(session),
                 _ => {}
             }
+        }
+        if self.gesture == Gesture::Draw {
+            moved |= self.follow_pen(session, view);
+            if self.pen.pop_front().is_some_and(|sample| sample.phase == PenPhase::Cancel) {
+                self.cancel(session);
+            }
+        } else {
+            self.pen.clear();
         }
         if self.gesture == Gesture::Pan && moved {
             view.pan(ui.input(|i| i.pointer.delta()));
@@ -138,8 +154,11 @@ impl Hands {
         match tool {
             Tool::Draw => {
                 session.begin_stroke(view.pixel_size(), shown.greedy);
-                session.extend_stroke(place, Some(time), self.force);
                 self.gesture = Gesture::Draw;
+                self.by_pen = self.set_pen_down(session, view);
+                if !self.by_pen {
+                    session.extend_stroke(place, Some(time), self.force);
+                }
             }
             Tool::Select => {
                 if let Some((id, end)) = grasped_end(session, view, pos) {
@@ -178,8 +197,32 @@ impl Hands {
         }
     }
 
+    /// Begins the stroke where the pen was set down, if it is known; what it did before belongs to no stroke.
+    fn set_pen_down(&mut self, session: &mut Session, view: &View) -> bool {
+        while let Some(sample) = self.pen.pop_front() {
+            if sample.phase == PenPhase::Down {
+                extend(session, view, sample);
+                return true;
+            }
+        }
+        false
+    }
+
+    /// Lets the stroke follow the pen until that is lifted; whether it moved.
+    fn follow_pen(&mut self, session: &mut Session, view: &View) -> bool {
+        let mut moved = false;
+        while self.gesture == Gesture::Draw
+            && let Some(sample) = self.pen.pop_front_if(|sample| sample.phase == PenPhase::Move)
+        {
+            extend(session, view, sample);
+            moved = true;
+        }
+        moved
+    }
+
     fn drag(&mut self, pos: Pos2, time: f64, session: &mut Session, view: &View) {
         match &mut self.gesture {
+            Gesture::Draw if self.by_pen => {}
             Gesture::Draw => session.extend_stroke(view.to_drawing(pos), Some(time), self.force),
             Gesture::Move { last, moved } => {
                 let by = pos - *last;
@@ -263,6 +306,12 @@ impl Hands {
             view.pan(egui::vec2(scroll.x, 0.0));
         }
     }
+}
+
+/// Lengthens the stroke in hand to where the pen is.
+fn extend(session: &mut Session, view: &View, sample: PenSample) {
+    let place = view.to_drawing(Pos2::new(sample.x as f32, sample.y as f32));
+    session.extend_stroke(place, Some(sample.time_s), sample.pressure.map(f64::from));
 }
 
 /// Whether a stroke shall become a curve of its own although it is drawn over another.

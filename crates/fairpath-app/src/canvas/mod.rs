@@ -1,15 +1,18 @@
 //! The canvas: where strokes are drawn and curves are seen.
 
+mod backdrop;
 mod grid;
 mod hands;
 mod paint;
 mod shapes;
+mod templates;
 
 pub(crate) use hands::GRASP;
 
 use crate::app::{Shown, Tool};
 use crate::theme::Palette;
 use crate::view::View;
+use backdrop::Backdrop;
 use eframe::egui::{self, CursorIcon, Rect, Role, Sense, Ui, WidgetInfo};
 use fairpath_sketch::{CurveId, Session};
 use hands::Hands;
@@ -21,6 +24,7 @@ use shapes::Shapes;
 pub(crate) struct Canvas {
     hands: Hands,
     shapes: Shapes,
+    backdrop: Backdrop,
     /// The place of a curve under the pointer, here or in the plot: the curve and a station.
     pub(crate) hovered: Option<(CurveId, f64)>,
 }
@@ -64,6 +68,7 @@ impl Canvas {
         let painter = ui.painter_at(rect);
         let brush = Brush { painter: &painter, view, shown, palette };
         painter.rect_filled(rect, 0.0, palette.paper);
+        self.backdrop.paint(ui.ctx(), &painter, view, session.drawing().background.as_ref());
         if shown.grid {
             brush.grid(ui.ctx().pixels_per_point());
         }

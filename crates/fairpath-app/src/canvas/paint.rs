@@ -38,7 +38,7 @@ impl Brush<'_> {
         }
     }
 
-    fn shape(&self, shape: &Shape, stroke_of: impl Fn(Kind) -> Stroke) {
+    pub(crate) fn shape(&self, shape: &Shape, stroke_of: impl Fn(Kind) -> Stroke) {
         for piece in &shape.pieces {
             self.path(&piece.points, stroke_of(piece.kind));
         }
@@ -69,6 +69,9 @@ impl Brush<'_> {
             self.shape(&shape, |kind| Stroke::new(CURVE_WIDTH, self.colour(kind)));
         }
         if let Some(curve) = session.selected() {
+            if self.shown.templates {
+                self.templates(session.drawing(), curve);
+            }
             self.joins(&curve.spline);
             self.pins(curve);
         }

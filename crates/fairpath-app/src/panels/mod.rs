@@ -1,10 +1,13 @@
 //! What floats over the canvas and lies beside it.
 
+mod advanced;
 mod hint;
 mod inspector;
+mod menu;
 mod neaten;
 pub(crate) mod plot;
 pub(crate) mod shortcuts;
+mod surface;
 mod toolbar;
 mod widgets;
 
@@ -22,6 +25,10 @@ pub(crate) struct Panels {
     pub(crate) hint: bool,
     /// The list of shortcuts.
     pub(crate) shortcuts: bool,
+    /// All options of the method.
+    pub(crate) advanced: bool,
+    /// Surfaces are striped, to judge their fairness.
+    pub(crate) zebra: bool,
     /// Something to be said, and since when it is shown, seconds.
     notice: Option<(String, Option<f64>)>,
 }
@@ -37,6 +44,8 @@ impl Panels {
 pub(crate) fn show(app: &mut App, ui: &mut Ui) {
     toolbar::show(app, ui);
     neaten::show(app, ui);
+    advanced::show(app, ui);
+    surface::show(app, ui);
     inspector::show(app, ui);
     hint::show(app, ui);
     shortcuts::show(app, ui);

@@ -1,10 +1,12 @@
 //! The method and the slider from as drawn to fairest, under the canvas's middle.
 
+use super::widgets::icon_button;
 use super::{MARGIN, float};
 use crate::app::App;
-use eframe::egui::{Align2, ComboBox, Slider, Ui, vec2};
+use crate::icons::Icon;
+use eframe::egui::{Align2, ComboBox, Role, Slider, Ui, WidgetInfo, vec2};
 use fairpath_fit::Preset;
-use fairpath_sketch::Method;
+use fairpath_sketch::{Method, Neatening};
 
 /// What a person calls a method.
 pub(crate) const fn method_title(method: Method) -> &'static str {
@@ -35,25 +37,38 @@ pub(crate) fn show(app: &mut App, ui: &Ui) {
     float(ui, "neaten", Align2::CENTER_BOTTOM, vec2(0.0, -MARGIN), |ui| {
         ui.horizontal(|ui| {
             let mut wish = app.session.neatening().clone();
-            ComboBox::from_id_salt("method").width(124.0).selected_text(method_title(wish.method)).show_ui(ui, |ui| {
-                for method in Method::ALL {
-                    ui.selectable_value(&mut wish.method, method, method_title(method));
-                }
-            });
+            let combo = ComboBox::from_id_salt("method").width(124.0).selected_text(method_title(wish.method)).show_ui(
+                ui,
+                |ui| {
+                    for method in Method::ALL {
+                        ui.selectable_value(&mut wish.method, method, method_title(method));
+                    }
+                },
+            );
+            combo.response.widget_info(|| WidgetInfo::labeled(Role::ComboBox, true, "Method"));
             if wish.method == Method::ShortestPath {
-                ComboBox::from_id_salt("preset").width(150.0).selected_text(preset_title(wish.preset)).show_ui(
-                    ui,
-                    |ui| {
+                let combo = ComboBox::from_id_salt("preset")
+                    .width(150.0)
+                    .selected_text(preset_title(wish.preset))
+                    .show_ui(ui, |ui| {
                         for preset in Preset::ALL {
                             ui.selectable_value(&mut wish.preset, preset, preset_title(preset));
                         }
-                    },
-                );
+                    });
+                combo.response.widget_info(|| WidgetInfo::labeled(Role::ComboBox, true, "Preset"));
+            }
+            if wish.method == Method::FrenchCurve {
+                french_curves(app, ui, &mut wish);
             }
             ui.separator();
             ui.weak("raw");
-            let slider = ui.add(Slider::new(&mut wish.fairness, 0.0..=1.0).show_value(false).text("Fairness"));
+            let slider = ui.add(Slider::new(&mut wish.fairness, 0.0..=1.0).show_value(false));
+            slider.widget_info(|| WidgetInfo::slider(true, wish.fairness, "Fairness"));
             ui.weak("fairest");
+            let open = app.panels.advanced;
+            if icon_button(ui, Icon::SlidersHorizontal, "All options", "", open, true).clicked() {
+                app.panels.advanced = !open;
+            }
             if wish != *app.session.neatening() {
                 app.session.set_neatening(wish);
             }
@@ -62,4 +77,29 @@ pub(crate) fn show(app: &mut App, ui: &Ui) {
             }
         });
     });
+}
+
+/// Which set of French curves, whether it is laid while drawing, and the selected curve as one more.
+fn french_curves(app: &mut App, ui: &mut Ui, wish: &mut Neatening) {
+    let combo =
+        ComboBox::from_id_salt("templates").width(110.0).selected_text(wish.templates.as_str()).show_ui(ui, |ui| {
+            for name in app.session.drawing().template_set_names() {
+                ui.selectable_value(&mut wish.templates, name.clone(), name);
+            }
+        });
+    combo.response.widget_info(|| WidgetInfo::labeled(Role::ComboBox, true, "Set of French curves"));
+    let (shown, live) = (app.shown.templates, app.shown.greedy);
+    if icon_button(ui, Icon::Eye, "French curves over the stroke", "", shown, true).clicked() {
+        app.shown.templates = !shown;
+    }
+    if icon_button(ui, Icon::Zap, "Lay French curves while drawing", "", live, true).clicked() {
+        app.shown.greedy = !live;
+    }
+    let selected = app.session.selected().is_some();
+    if icon_button(ui, Icon::CopyPlus, "Make the selected curve a French curve", "", false, selected).clicked()
+        && let Some(set) = app.session.author_template()
+    {
+        app.panels.say(format!("A French curve more in {set:?}."));
+        wish.templates = set;
+    }
 }

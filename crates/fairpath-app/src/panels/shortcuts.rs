@@ -1,10 +1,11 @@
 //! The keyboard: one table for what keys do and for the list that shows it.
 
 use crate::app::{App, Ink, Tool};
-use eframe::egui::{Align2, Grid, Key, KeyboardShortcut, Modifiers, Ui, Window};
+use crate::files::Purpose;
+use eframe::egui::{Align2, Context, Grid, Key, KeyboardShortcut, Modifiers, Ui, Window};
 
 /// What keys can do.
-type Deed = fn(&mut App);
+type Deed = fn(&mut App, &Context);
 
 const NONE: Modifiers = Modifiers::NONE;
 const COMMAND: Modifiers = Modifiers::COMMAND;
@@ -12,34 +13,38 @@ const COMMAND_SHIFT: Modifiers = Modifiers { shift: true, ..Modifiers::COMMAND }
 
 /// Modifiers, key, what is said of it, and what it does. Of two rows with one key the one with more modifiers comes first.
 const TABLE: &[(Modifiers, Key, &str, Deed)] = &[
-    (COMMAND_SHIFT, Key::Z, "Redo", |app| app.session.redo()),
-    (COMMAND, Key::Z, "Undo", |app| app.session.undo()),
-    (COMMAND, Key::Y, "Redo", |app| app.session.redo()),
-    (COMMAND, Key::A, "Select all", |app| app.session.select_all()),
-    (COMMAND, Key::D, "Duplicate", |app| {
+    (COMMAND_SHIFT, Key::Z, "Redo", |app, _| app.session.redo()),
+    (COMMAND, Key::Z, "Undo", |app, _| app.session.undo()),
+    (COMMAND, Key::Y, "Redo", |app, _| app.session.redo()),
+    (COMMAND, Key::O, "Open", |app, ctx| app.files.choose(ctx, Purpose::Open)),
+    (COMMAND, Key::S, "Save", |app, ctx| app.save(ctx)),
+    (COMMAND_SHIFT, Key::C, "Copy as SVG", |app, ctx| app.copy_svg(ctx)),
+    (COMMAND, Key::A, "Select all", |app, _| app.session.select_all()),
+    (COMMAND, Key::D, "Duplicate", |app, _| {
         let by = 16.0 * app.view.pixel_size();
         app.session.duplicate_selected(fairpath_curve::Vec2::new(by, by));
     }),
-    (COMMAND, Key::Num0, "Show all", App::fit_view),
-    (NONE, Key::Escape, "Drop the stroke in hand", |app| app.canvas.cancel(&mut app.session)),
-    (NONE, Key::Delete, "Delete", |app| app.session.delete_selected()),
-    (NONE, Key::Backspace, "Delete", |app| app.session.delete_selected()),
-    (NONE, Key::P, "Draw", |app| app.tool = Tool::Draw),
-    (NONE, Key::V, "Select and move", |app| app.tool = Tool::Select),
-    (NONE, Key::B, "Pull through a point", |app| app.tool = Tool::Pull),
-    (NONE, Key::C, "Cut", |app| app.tool = Tool::Cut),
-    (NONE, Key::K, "Corner or smooth", |app| app.tool = Tool::Corner),
-    (NONE, Key::J, "Join two selected curves", App::join_selected),
-    (NONE, Key::O, "Close or open", App::toggle_closed),
-    (NONE, Key::Num1, "Colours", |app| {
+    (COMMAND, Key::Num0, "Show all", |app, _| app.fit_view()),
+    (NONE, Key::Escape, "Drop the stroke in hand", |app, _| app.canvas.cancel(&mut app.session)),
+    (NONE, Key::Delete, "Delete", |app, _| app.session.delete_selected()),
+    (NONE, Key::Backspace, "Delete", |app, _| app.session.delete_selected()),
+    (NONE, Key::P, "Draw", |app, _| app.tool = Tool::Draw),
+    (NONE, Key::V, "Select and move", |app, _| app.tool = Tool::Select),
+    (NONE, Key::B, "Pull through a point", |app, _| app.tool = Tool::Pull),
+    (NONE, Key::C, "Cut", |app, _| app.tool = Tool::Cut),
+    (NONE, Key::K, "Corner or smooth", |app, _| app.tool = Tool::Corner),
+    (NONE, Key::J, "Join two selected curves", |app, _| app.join_selected()),
+    (NONE, Key::O, "Close or open", |app, _| app.toggle_closed()),
+    (NONE, Key::I, "Inflate a closed curve", |app, _| app.inflate_selected()),
+    (NONE, Key::Num1, "Colours", |app, _| {
         app.shown.ink = if app.shown.ink == Ink::Kinds { Ink::Plain } else { Ink::Kinds };
     }),
-    (NONE, Key::Num2, "Strokes as drawn", |app| app.shown.ghost ^= true),
-    (NONE, Key::Num3, "Curvature comb", |app| app.shown.comb ^= true),
-    (NONE, Key::Num4, "Curvature plot", |app| app.shown.plot ^= true),
-    (NONE, Key::Num5, "Grid", |app| app.shown.grid ^= true),
-    (NONE, Key::Num6, "Figures", |app| app.shown.inspector ^= true),
-    (NONE, Key::Questionmark, "Shortcuts", |app| app.panels.shortcuts ^= true),
+    (NONE, Key::Num2, "Strokes as drawn", |app, _| app.shown.ghost ^= true),
+    (NONE, Key::Num3, "Curvature comb", |app, _| app.shown.comb ^= true),
+    (NONE, Key::Num4, "Curvature plot", |app, _| app.shown.plot ^= true),
+    (NONE, Key::Num5, "Grid", |app, _| app.shown.grid ^= true),
+    (NONE, Key::Num6, "Figures", |app, _| app.shown.inspector ^= true),
+    (NONE, Key::Questionmark, "Shortcuts", |app, _| app.panels.shortcuts ^= true),
 ];
 
 /// What hands do besides.
@@ -65,7 +70,7 @@ pub(crate) fn read(app: &mut App, ui: &Ui) {
             ui.input_mut(|i| i.consume_shortcut(&shortcut))
         };
         if pressed {
-            deed(app);
+            deed(app, ui.ctx());
         }
     }
 }

@@ -1,5 +1,6 @@
 //! The tools at the left, and undo and what is shown at the top.
 
+use super::menu;
 use super::widgets::icon_button;
 use super::{MARGIN, float};
 use crate::app::{App, Ink, Tool};
@@ -27,6 +28,7 @@ pub(crate) fn show(app: &mut App, ui: &Ui) {
     });
     float(ui, "history", Align2::LEFT_TOP, vec2(MARGIN, MARGIN), |ui| {
         ui.horizontal(|ui| {
+            menu::show(app, ui);
             let undo = app.session.history().undoable().map(|deed| format!("Undo {}", deed.to_lowercase()));
             if icon_button(ui, Icon::Undo2, undo.as_deref().unwrap_or("Undo"), "Ctrl+Z", false, undo.is_some())
                 .clicked()

@@ -1,0 +1,77 @@
+//! Draws strokes of files as hands do, point by point, and prints how long the application took: from the last point of each stroke to its curve in the
+//! picture, and the work for each picture while it was drawn. Everything is done that the window does but for the graphics device.
+//!
+//!     cargo run --release -p fairpath-app --example pace -- FILE…
+
+use eframe::egui::{Context, Event, Modifiers, PointerButton, Pos2, RawInput, Rect, pos2, vec2};
+use fairpath_app::{App, NoStore};
+use fairpath_io::{ReadOptions, read_strokes};
+use fairpath_sketch::Drawing;
+use std::path::Path;
+
+/// The window, points.
+const WINDOW: Rect = Rect { min: Pos2::ZERO, max: pos2(1600.0, 1000.0) };
+
+/// Points of a stroke that come between two pictures: a pen of 240 Hz on a screen of 60 Hz.
+const POINTS_A_FRAME: usize = 4;
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let ctx = Context::default();
+    let mut app = App::with_thread(&ctx, Box::new(NoStore));
+    let mut window = Window { ctx, time: 0.0 };
+    for path in std::env::args().skip(1) {
+        let file = read_strokes(Path::new(&path), &ReadOptions::default())?;
+        for stroke in &file.strokes {
+            // Every stroke on paper of its own, or most would change the one before.
+            app.session_mut().open(Drawing::default());
+            let points: Vec<Pos2> = placed(stroke.points.iter().map(|p| [p.x, p.y]));
+            let (Some(&first), Some(&last)) = (points.first(), points.last()) else { continue };
+            window.frame(&mut app, vec![Event::PointerMoved(first)]);
+            window.frame(&mut app, vec![button(first, true)]);
+            for chunk in points[1..].chunks(POINTS_A_FRAME) {
+                window.frame(&mut app, chunk.iter().map(|&p| Event::PointerMoved(p)).collect());
+            }
+            window.frame(&mut app, vec![button(last, false)]);
+            while !app.is_settled() {
+                window.frame(&mut app, Vec::new());
+            }
+        }
+        let report = app.pace();
+        println!("{path}");
+        for (what, times) in
+            [("from last point to curve", report.curves), ("work for a picture while drawing", report.frames)]
+        {
+            println!(
+                "    {what:<34} {:>6} times, median {:.2} ms, 99 of 100 within {:.2} ms, longest {:.2} ms",
+                times.count, times.median, times.p99, times.longest
+            );
+        }
+        app.forget_pace();
+    }
+    Ok(())
+}
+
+/// The strokes of a file where the window is.
+fn placed(points: impl Iterator<Item = [f64; 2]> + Clone) -> Vec<Pos2> {
+    let low = points.clone().fold([f64::INFINITY; 2], |low, p| [low[0].min(p[0]), low[1].min(p[1])]);
+    points.map(|p| pos2((p[0] - low[0]) as f32 + 80.0, (p[1] - low[1]) as f32 + 80.0)).collect()
+}
+
+fn button(pos: Pos2, pressed: bool) -> Event {
+    Event::PointerButton { pos, button: PointerButton::Primary, pressed, modifiers: Modifiers::NONE }
+}
+
+/// A window without a screen.
+struct Window {
+    ctx: Context,
+    time: f64,
+}
+
+impl Window {
+    fn frame(&mut self, app: &mut App, events: Vec<Event>) {
+        self.time += 1.0 / 60.0;
+        let screen = Rect::from_min_size(WINDOW.min, vec2(WINDOW.width(), WINDOW.height()));
+        let input = RawInput { screen_rect: Some(screen), time: Some(self.time), events, ..RawInput::default() };
+        app.frame_without_window(&self.ctx, input);
+    }
+}

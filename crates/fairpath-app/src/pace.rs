@@ -1,0 +1,94 @@
+//! How fast it is, timed from inside: from the last point of a stroke to its curve in the picture, and the work for each picture.
+
+use fairpath_sketch::{CurveId, Drawing};
+use serde::Serialize;
+use web_time::Instant;
+
+/// Most times that are remembered.
+const MOST: usize = 4096;
+
+/// Times so far, milliseconds.
+#[derive(Debug, Default)]
+pub(crate) struct Pace {
+    begun: Option<Instant>,
+    drawing: bool,
+    /// When the pen was lifted that drew a curve which is not there yet.
+    awaited: Option<(CurveId, Instant)>,
+    curves_ms: Vec<f64>,
+    frames_ms: Vec<f64>,
+}
+
+/// What of a list of times matters, milliseconds.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct Times {
+    /// How many there are.
+    pub count: usize,
+    /// Half of them are shorter.
+    pub median: f64,
+    /// One in a hundred is longer.
+    pub p99: f64,
+    /// The longest.
+    pub longest: f64,
+}
+
+/// The application's own times.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct PaceReport {
+    /// From the last point of a stroke to its curve in the picture.
+    pub curves: Times,
+    /// The work for each picture while a stroke is drawn.
+    pub frames: Times,
+}
+
+impl Pace {
+    /// A picture begins; `drawing` tells whether a stroke is in hand.
+    pub(crate) fn begin(&mut self, drawing: bool) {
+        self.begun = Some(Instant::now());
+        self.drawing = drawing;
+    }
+
+    /// The picture is made. `drawn` is the curve whose stroke ended in it, if one did.
+    pub(crate) fn end(&mut self, drawn: Option<CurveId>, drawing: &Drawing) {
+        let Some(begun) = self.begun.take() else { return };
+        if let Some(id) = drawn {
+            self.awaited = Some((id, begun));
+        }
+        if self.drawing {
+            note(&mut self.frames_ms, begun);
+        }
+        if let Some((id, since)) = self.awaited {
+            match drawing.curve(id) {
+                Some(curve) if !curve.fitted => {}
+                Some(_) => {
+                    note(&mut self.curves_ms, since);
+                    self.awaited = None;
+                }
+                None => self.awaited = None,
+            }
+        }
+    }
+
+    /// The times so far.
+    pub(crate) fn report(&self) -> PaceReport {
+        PaceReport { curves: times(&self.curves_ms), frames: times(&self.frames_ms) }
+    }
+}
+
+fn note(list: &mut Vec<f64>, since: Instant) {
+    if list.len() < MOST {
+        list.push(since.elapsed().as_secs_f64() * 1e3);
+    }
+}
+
+fn times(list: &[f64]) -> Times {
+    let mut sorted = list.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    let at =
+        |share: f64| sorted.get(((sorted.len() as f64 * share) as usize).min(sorted.len().saturating_sub(1))).copied();
+    Times {
+        count: sorted.len(),
+        median: at(0.5).unwrap_or(0.0),
+        p99: at(0.99).unwrap_or(0.0),
+        longest: sorted.last().copied().unwrap_or(0.0),
+    }
+}

@@ -1,0 +1,61 @@
+//! The surface of a closed curve in a small view of its own, which can be turned.
+
+use super::widgets::icon_button;
+use super::{MARGIN, float};
+use crate::app::App;
+use crate::icons::Icon;
+use eframe::egui::{Align2, Ui, vec2};
+use fairpath_render::{Finish, Zebra};
+use fairpath_shape::InflateOptions;
+
+/// Side of the view, points.
+const SIDE: f32 = 300.0;
+
+/// Shows the surface, if one was asked for.
+pub(crate) fn show(app: &mut App, ui: &Ui) {
+    let Some((_, mesh)) = app.session.surface() else { return };
+    let (mesh, y) = (mesh.clone(), app.session.drawing().y);
+    let Some(view) = &mut app.surface_view else {
+        app.session.drop_surface();
+        return app.panels.say("There is no graphics device that could show a surface.");
+    };
+    let mut keep = true;
+    let mut zebra = app.panels.zebra;
+    let shown = float(ui, "surface", Align2::LEFT_BOTTOM, vec2(MARGIN, -MARGIN), |ui| {
+        ui.set_width(SIDE);
+        ui.horizontal(|ui| {
+            ui.label("Surface");
+            ui.weak(format!("{} triangles", mesh.triangles.len()));
+            ui.with_layout(eframe::egui::Layout::right_to_left(eframe::egui::Align::Center), |ui| {
+                keep = !icon_button(ui, Icon::X, "Close the surface", "", false, true).clicked();
+                if icon_button(ui, Icon::Rainbow, "Zebra stripes", "", zebra, true).clicked() {
+                    zebra = !zebra;
+                }
+            });
+        });
+        let finish = if zebra { Finish::Zebra(Zebra::default()) } else { Finish::Clay };
+        ui.allocate_ui(vec2(SIDE, SIDE), |ui| view.show(ui, &mesh, y, finish).err()).inner
+    });
+    app.panels.zebra = zebra;
+    if let Some(error) = shown.inner {
+        app.panels.say(error.to_string());
+        keep = false;
+    }
+    if !keep {
+        app.session.drop_surface();
+    }
+}
+
+impl App {
+    /// Makes a surface of the selected curve, or closes the one that is shown.
+    pub(crate) fn inflate_selected(&mut self) {
+        if self.session.surface().is_some() {
+            return self.session.drop_surface();
+        }
+        match self.session.selected() {
+            Some(curve) if curve.spline.is_closed() => self.session.inflate(InflateOptions::default()),
+            Some(_) => self.panels.say("Only a closed curve can be inflated; O closes it."),
+            None => self.panels.say("Select a closed curve to inflate it."),
+        }
+    }
+}

@@ -1,0 +1,131 @@
+//! Drawing, drawing over, dropping, undoing.
+
+use crate::hands::{app, arch, draw, empty_app, press, release, session};
+use eframe::egui::{Event, Key, Modifiers, pos2};
+use egui_kittest::kittest::Queryable;
+use fairpath_curve::Kind;
+
+#[test]
+fn a_first_start_shows_fitted_curves_and_a_hint() {
+    let harness = app();
+    let drawing = session(&harness).drawing();
+    assert!(drawing.curves().len() > 2);
+    assert!(drawing.curves().iter().all(|curve| curve.fitted));
+    harness.get_by_label_contains("Draw anywhere");
+}
+
+#[test]
+fn a_drawn_arch_becomes_an_arc_where_it_was_drawn() {
+    let mut harness = empty_app();
+    draw(&mut harness, &arch(500.0, 400.0, 120.0));
+    let curves = session(&harness).drawing().curves().to_vec();
+    assert_eq!(curves.len(), 1);
+    let segments = curves[0].spline.segments();
+    assert_eq!(segments.iter().map(|s| s.kind()).collect::<Vec<_>>(), [Kind::Arc]);
+    assert!((segments[0].length - 120.0 * std::f64::consts::PI).abs() < 2.0);
+    assert_eq!(curves[0].stroke.points.len(), 61);
+    assert!((curves[0].stroke.points[0].x - 380.0).abs() < 1e-3);
+}
+
+#[test]
+fn escape_drops_the_stroke_in_hand_and_no_more() {
+    let mut harness = empty_app();
+    draw(&mut harness, &arch(300.0, 300.0, 80.0));
+    let before = session(&harness).drawing().clone();
+    press(&mut harness, pos2(600.0, 300.0));
+    for x in 0..20 {
+        harness.event(Event::PointerMoved(pos2(600.0 + 5.0 * x as f32, 300.0)));
+    }
+    harness.step();
+    assert!(session(&harness).hand().is_some());
+    harness.key_press(Key::Escape);
+    harness.step();
+    assert!(session(&harness).hand().is_none());
+    release(&mut harness, pos2(700.0, 300.0));
+    assert_eq!(*session(&harness).drawing(), before);
+}
+
+#[test]
+fn undo_and_redo_by_keys_and_by_buttons() {
+    let mut harness = empty_app();
+    draw(&mut harness, &arch(300.0, 300.0, 80.0));
+    draw(&mut harness, &arch(600.0, 300.0, 80.0));
+    let both = session(&harness).drawing().clone();
+    harness.key_press_modifiers(Modifiers::COMMAND, Key::Z);
+    harness.step();
+    assert_eq!(session(&harness).drawing().curves().len(), 1);
+    harness.get_by_label("Undo draw").click();
+    harness.run_steps(2);
+    assert_eq!(session(&harness).drawing().curves().len(), 0);
+    for modifiers in [Modifiers::COMMAND | Modifiers::SHIFT, Modifiers::COMMAND] {
+        let key = if modifiers.shift { Key::Z } else { Key::Y };
+        harness.key_press_modifiers(modifiers, key);
+        harness.step();
+    }
+    assert_eq!(*session(&harness).drawing(), both);
+}
+
+#[test]
+fn a_stroke_along_a_curve_changes_it_and_shows_before_what_it_replaces() {
+    let mut harness = empty_app();
+    let line: Vec<_> = (0..80).map(|i| pos2(200.0 + 7.0 * i as f32, 400.0)).collect();
+    draw(&mut harness, &line);
+    let bump: Vec<_> = (0..=50)
+        .map(|i| {
+            let t = i as f32 / 50.0;
+            pos2(380.0 + 200.0 * t, 400.0 - 60.0 * (std::f32::consts::PI * t).sin().powi(2))
+        })
+        .collect();
+    press(&mut harness, bump[0]);
+    for &point in &bump[1..] {
+        harness.event(Event::PointerMoved(point));
+    }
+    harness.run_steps(2);
+    let over = session(&harness).hand().unwrap().over().expect("it lies over the line");
+    let [from, to] = over.region.replaced;
+    assert!((from - 180.0).abs() < 5.0 && (to - 380.0).abs() < 5.0, "{:?}", over.region);
+    assert!(session(&harness).hand().unwrap().preview().is_some());
+    release(&mut harness, bump[50]);
+    let curves = session(&harness).drawing().curves();
+    assert_eq!(curves.len(), 1);
+    assert!(curves[0].spline.bounding_box().y0 < 350.0);
+    assert_eq!(session(&harness).history().undoable(), Some("Oversketch"));
+}
+
+#[test]
+fn the_slider_makes_the_selected_curve_fairer_in_one_step_of_undo() {
+    let mut harness = empty_app();
+    let wiggle: Vec<_> = (0..200)
+        .map(|i| {
+            let x = i as f32 * 3.0;
+            pos2(200.0 + x, 350.0 + 40.0 * (x / 60.0).sin() + 2.0 * (x / 7.0).sin())
+        })
+        .collect();
+    draw(&mut harness, &wiggle);
+    let id = session(&harness).drawing().curves()[0].id;
+    harness.state_mut().session_mut().select(Some(id), false);
+    harness.run_steps(2);
+    let before = session(&harness).drawing().curves()[0].clone();
+    for value in [0.6, 0.8, 1.0] {
+        harness.get_by_label("Fairness").set_value_accesskit(value);
+        harness.run_steps(2);
+    }
+    let after = session(&harness).drawing().curves()[0].clone();
+    assert_eq!(after.neatening.fairness, 1.0);
+    assert!(after.report.rms_deviation > before.report.rms_deviation);
+    assert!(after.spline.segments().len() < before.spline.segments().len());
+    harness.key_press_modifiers(Modifiers::COMMAND, Key::Z);
+    harness.run_steps(2);
+    assert_eq!(session(&harness).drawing().curves()[0], before);
+}
+
+#[test]
+fn the_figures_of_the_selected_curve_are_those_of_its_report() {
+    let mut harness = empty_app();
+    draw(&mut harness, &arch(500.0, 400.0, 120.0));
+    let curve = session(&harness).drawing().curves()[0].clone();
+    harness.state_mut().session_mut().select(Some(curve.id), false);
+    harness.run_steps(2);
+    harness.get_by_label(&format!("{:.1} px", curve.spline.length()));
+    harness.get_by_label(&format!("{:.2} px", curve.report.max_deviation));
+}

@@ -1,0 +1,62 @@
+//! Hands: what a person does to the window, for a harness.
+
+use eframe::egui::{Event, Modifiers, PointerButton, Pos2, pos2};
+use egui_kittest::Harness;
+use fairpath_app::{App, InlineWorker, NoStore};
+use fairpath_sketch::{Drawing, Session};
+
+/// The application without a first drawing, with a worker that answers at once. A unit of the drawing is a point of the window.
+pub(crate) fn empty_app<'a>() -> Harness<'a, App> {
+    let mut harness = app();
+    harness.state_mut().session_mut().open(Drawing::default());
+    harness.step();
+    harness
+}
+
+/// The application as it starts.
+pub(crate) fn app<'a>() -> Harness<'a, App> {
+    let builder = Harness::builder().with_size([1000.0, 700.0]).with_max_steps(20);
+    let mut harness = builder
+        .build_eframe(|creation| App::new(&creation.egui_ctx, Box::<InlineWorker>::default(), Box::new(NoStore)));
+    harness.run_steps(3);
+    harness
+}
+
+/// Draws a stroke through points of the window, a few to a frame.
+pub(crate) fn draw(harness: &mut Harness<'_, App>, points: &[Pos2]) {
+    press(harness, points[0]);
+    for chunk in points[1..].chunks(4) {
+        for &point in chunk {
+            harness.event(Event::PointerMoved(point));
+        }
+        harness.step();
+    }
+    release(harness, points[points.len() - 1]);
+}
+
+pub(crate) fn press(harness: &mut Harness<'_, App>, pos: Pos2) {
+    harness.event(Event::PointerMoved(pos));
+    harness.step();
+    button(harness, pos, true);
+}
+
+pub(crate) fn release(harness: &mut Harness<'_, App>, pos: Pos2) {
+    button(harness, pos, false);
+    harness.run_steps(2);
+}
+
+fn button(harness: &mut Harness<'_, App>, pos: Pos2, pressed: bool) {
+    let (button, modifiers) = (PointerButton::Primary, Modifiers::NONE);
+    harness.event(Event::PointerButton { pos, button, pressed, modifiers });
+    harness.step();
+}
+
+/// An arch of that radius from the left to the right around a place of the window.
+pub(crate) fn arch(x: f32, y: f32, radius: f32) -> Vec<Pos2> {
+    let at = |i: usize| std::f32::consts::PI * (1.0 + i as f32 / 60.0);
+    (0..=60).map(|i| pos2(x + radius * at(i).cos(), y + radius * at(i).sin())).collect()
+}
+
+pub(crate) fn session<'a>(harness: &'a Harness<'_, App>) -> &'a Session {
+    harness.state().session()
+}

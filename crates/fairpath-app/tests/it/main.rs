@@ -1,0 +1,5 @@
+//! The application, driven as hands and keys drive it.
+
+mod draw;
+mod hands;
+mod surface_view;
