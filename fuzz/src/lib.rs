@@ -1,9 +1,12 @@
 //! What the targets have in common.
 
+use fairpath_curve::{Segment, Spline};
+use fairpath_fit::Stroke;
 use fairpath_io::{
     ReadOptions, SplineFormat, StrokeFormat, TemplateOptions, WriteOptions, encode_splines, encode_strokes,
     encode_templates, read_splines_from, read_strokes_from, read_templates_from,
 };
+use fairpath_sketch::{Answer, Job, run, run_encoded_job};
 
 /// Any bytes as splines in one format: read or refused, and what was read can be written in every format and reads back the same.
 ///
@@ -28,6 +31,36 @@ pub fn splines(bytes: &[u8], format: SplineFormat) {
             }
             _ => {}
         }
+    }
+}
+
+/// Any bytes as a job for the worker that shares no memory with the interface: each is answered, and with what the job itself gives. Jobs that are done,
+/// but slowly, are left out.
+///
+/// # Panics
+/// When one is not.
+pub fn jobs(bytes: &[u8]) {
+    let Ok(text) = std::str::from_utf8(bytes) else { return };
+    let there = match serde_json::from_str::<Job>(text) {
+        Ok(job) if is_slow(&job) => return,
+        Ok(job) => Some(run(&job)),
+        Err(_) => None,
+    };
+    let answer: Answer = serde_json::from_str(&run_encoded_job(text)).expect("every answer is an answer");
+    match there {
+        Some(there) => assert_eq!(answer, there),
+        None => assert!(matches!(answer, Answer::Failed(_))),
+    }
+}
+
+/// Whether a job has more points, turns or triangles than there is time for.
+fn is_slow(job: &Job) -> bool {
+    let winds = |spline: &Spline| spline.segments().iter().map(Segment::absolute_turning).sum::<f64>() > 100.0;
+    let is_long = |stroke: &Stroke| stroke.points.len() > 200;
+    match job {
+        Job::Fit { stroke, .. } => is_long(stroke),
+        Job::Hold { stroke, spline, .. } | Job::Oversketch { stroke, spline, .. } => is_long(stroke) || winds(spline),
+        Job::Inflate { spline, options } => winds(spline) || options.triangles > 1000,
     }
 }
 

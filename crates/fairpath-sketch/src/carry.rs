@@ -19,6 +19,9 @@ const SAME: f64 = 1e-7;
 /// A point of a stroke within this belongs to the branch of its neighbours, px; further away, another branch may be meant.
 const NEAR: f64 = 12.0;
 
+/// A point whose place lies behind that of the one before counts as further away, for each px behind: strokes go forward.
+const RETURN: f64 = 0.5;
+
 /// What is looked through along a curve beside what the points have gone, px.
 const SLACK: f64 = 16.0;
 
@@ -116,7 +119,7 @@ impl Places {
     /// The stretches that lie on an old curve.
     fn shared_with(&self, old: &Spline, new: &Spline) -> Vec<Stretch> {
         let same = SAME * (old.length() + new.length());
-        let mut follower = Follower::new(old);
+        let mut follower = Follower::new(old, 0.0);
         let mut before = 0.0;
         let mut station_of = |station: f64, point: Point| {
             let place = follower.peek(point, 2.0 * (station - before) + same, same);
@@ -156,7 +159,7 @@ fn moved_over(stroke: &Stroke, old: &Spline, stretches: &[Stretch], pixel_size: 
             stretch.new[0] + share * (stretch.new[1] - stretch.new[0])
         })
     };
-    let mut follower = Follower::new(old);
+    let mut follower = Follower::new(old, RETURN);
     let mut before = stroke.points.first().copied().unwrap_or_default();
     let mut moved = Vec::new();
     for &point in &stroke.points {

@@ -86,7 +86,13 @@ impl Curve {
 
     /// The curve with another shape and a stroke that fits it.
     pub(crate) fn reshaped(&self, spline: Spline, stroke: Stroke) -> Self {
-        let report = measure(&spline, &stroke, self.neatening.pixel_size);
+        let fitted = self.fitted || self.unpinned.is_some();
+        let report = if fitted && self.neatening.fairness > 0.0 {
+            measure(&spline, &stroke, self.neatening.pixel_size)
+        } else {
+            // The points themselves stand for the curve, a hundred thousand perhaps, and nobody wants to know how far it is from them.
+            Report { points: stroke.points.len(), pieces: spline.segments().len(), ..Report::default() }
+        };
         let closed = if spline.is_closed() { Closing::Yes } else { Closing::No };
         Self {
             stroke,
@@ -98,7 +104,7 @@ impl Curve {
             warnings: Vec::new(),
             templates: None,
             // What was changed before it was fitted is still to be fitted, to the stroke with the change.
-            fitted: self.fitted || self.unpinned.is_some(),
+            fitted,
             ..self.clone()
         }
     }

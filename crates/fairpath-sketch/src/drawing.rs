@@ -82,11 +82,10 @@ impl Drawing {
         }
     }
 
-    /// Puts a curve in the place of a certain state of it, if the drawing has that.
-    pub(crate) fn supersede(&mut self, old: &Arc<Curve>, new: &Arc<Curve>) {
-        if let Some(place) = self.curves.iter_mut().find(|curve| Arc::ptr_eq(curve, old)) {
-            *place = Arc::clone(new);
-        }
+    /// Puts a curve in the place of a certain state of it; false if the drawing has not got that.
+    pub(crate) fn supersede(&mut self, old: &Arc<Curve>, new: &Arc<Curve>) -> bool {
+        let place = self.curves.iter_mut().find(|curve| Arc::ptr_eq(curve, old));
+        place.map(|place| *place = Arc::clone(new)).is_some()
     }
 
     /// Gives no identity that another state of the drawing has given.

@@ -3,6 +3,7 @@
 use crate::carry::carried;
 use crate::curve::{Curve, CurveId};
 use crate::desk::Slot;
+use crate::job::Trouble;
 use crate::session::Session;
 use fairpath_curve::{Continuity, Spline};
 use fairpath_fit::{CurveEnd, Extension, close, cut, extend, join, make_corner, smooth_corner};
@@ -76,6 +77,10 @@ impl Session {
     pub fn extend(&mut self, id: CurveId, end: CurveEnd, length: f64, how: Extension) {
         let Some(curve) = self.drawing().curve(id) else { return };
         match extend(&curve.spline, end, length, how) {
+            Ok(longer) if turning(&longer) > MOST_TURNING => self.report(Trouble {
+                code: "too-long".into(),
+                text: format!("{length} more would wind it up thousands of times; lengthen it by less"),
+            }),
             Ok(longer) => self.reshape("Extend", id, longer),
             Err(error) => self.report(error),
         }
@@ -107,6 +112,14 @@ impl Session {
             Err(error) => self.report(error),
         }
     }
+}
+
+/// A curve that turns by more than this is no drawing any more, radians.
+const MOST_TURNING: f64 = 1e4;
+
+/// How much a curve turns, left and right added.
+fn turning(spline: &Spline) -> f64 {
+    spline.segments().iter().map(fairpath_curve::Segment::absolute_turning).sum()
 }
 
 /// The ends at which two open curves are nearest to each other.

@@ -16,17 +16,20 @@ pub(crate) struct Follower<'a> {
     starts: Vec<f64>,
     length: f64,
     at: Option<f64>,
+    /// What a place behind counts as further away, for each unit that it lies behind along the curve: where a stroke comes back over itself, the way on
+    /// and the way back are equally near.
+    price_of_return: f64,
 }
 
 impl<'a> Follower<'a> {
-    pub(crate) fn new(spline: &'a Spline) -> Self {
+    pub(crate) fn new(spline: &'a Spline, price_of_return: f64) -> Self {
         let mut station = 0.0;
         let starts = spline.segments().iter().map(|segment| {
             let start = station;
             station += segment.length;
             start
         });
-        Self { spline, starts: starts.collect(), length: spline.length(), at: None }
+        Self { spline, starts: starts.collect(), length: spline.length(), at: None, price_of_return }
     }
 
     /// The place that belongs to a point: the nearest within `reach` along the curve of where the follower is, if that is no further away than `near` or
@@ -57,14 +60,20 @@ impl<'a> Follower<'a> {
     fn within(&self, at: f64, reach: f64, point: Point) -> Option<Place> {
         let n = self.starts.len();
         let here = self.starts.partition_point(|&start| start <= at).clamp(1, n) - 1;
-        let mut best: Option<Place> = None;
+        let mut best: Option<(f64, Place)> = None;
         let mut look = |i: usize| {
             let segment = &self.spline.segments()[i];
+            // No place of a segment is nearer than its start is, less its length: most of a curve of very many segments need not be looked at.
+            let bound = (segment.start - point).hypot() - segment.length;
+            if best.is_some_and(|(price, _)| bound > price) {
+                return;
+            }
             for found in segment.nearest_all(point) {
                 let station = self.starts[i] + found.s;
-                let closer = best.is_none_or(|best| found.distance < best.distance);
-                if closer && self.apart(station, at) <= reach {
-                    best = Some(Place { station, distance: found.distance });
+                let ahead = self.ahead(station, at);
+                let price = found.distance + self.price_of_return * (-ahead).max(0.0);
+                if ahead.abs() <= reach && best.is_none_or(|(least, _)| price < least) {
+                    best = Some((price, Place { station, distance: found.distance }));
                 }
             }
         };
@@ -91,12 +100,16 @@ impl<'a> Follower<'a> {
             look(i);
             gone += self.spline.segments()[i].length;
         }
-        best
+        best.map(|(_, place)| place)
     }
 
-    /// How far two stations are apart along the curve.
-    fn apart(&self, a: f64, b: f64) -> f64 {
-        let straight = (a - b).abs();
-        if self.spline.is_closed() { straight.min(self.length - straight) } else { straight }
+    /// How far a station lies ahead of another, the shorter way around; negative if behind.
+    fn ahead(&self, station: f64, of: f64) -> f64 {
+        let straight = station - of;
+        if !self.spline.is_closed() || straight.abs() <= 0.5 * self.length {
+            straight
+        } else {
+            straight - self.length.copysign(straight)
+        }
     }
 }

@@ -189,7 +189,10 @@ impl Session {
         let curve = self.drawing().curve(id)?;
         let options = oversketch_options(curve, hand.pixel_size);
         let region = oversketch_region(&curve.spline, &hand.stroke, &options).ok()?;
-        let follows = match region.attached {
+        // The region tells it in the curve's direction.
+        let [start, end] = region.attached;
+        let attached = if region.backward { [end, start] } else { [start, end] };
+        let follows = match attached {
             [true, true] => true,
             [true, false] => runs_along(&curve.spline, points.iter().copied(), hand.pixel_size),
             [false, true] => runs_along(&curve.spline, points.iter().rev().copied(), hand.pixel_size),

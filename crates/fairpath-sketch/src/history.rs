@@ -85,9 +85,17 @@ impl History {
     pub(crate) fn supersede(&mut self, old: &Arc<Curve>, new: Curve) {
         self.version += 1;
         let new = Arc::new(new);
-        self.present.supersede(old, &new);
-        for state in self.past.iter_mut().chain(&mut self.future) {
-            state.drawing.supersede(old, &new);
+        let is_present = self.present.supersede(old, &new);
+        // From when it came to when it went, a state of a curve is in every drawing.
+        for states in [&mut self.past, &mut self.future] {
+            let mut seen = is_present;
+            for state in states.iter_mut().rev() {
+                let has_it = state.drawing.supersede(old, &new);
+                if seen && !has_it {
+                    break;
+                }
+                seen = has_it;
+            }
         }
     }
 

@@ -133,8 +133,9 @@ pub fn run_encoded_job(job: &str) -> String {
         Err(error) => Answer::Failed(Trouble { code: "bad-job".into(), text: format!("the job is no job: {error}") }),
     };
     serde_json::to_string(&answer).unwrap_or_else(|error| {
-        // An answer holds finite numbers and words; a number that is not finite would be written as null, not fail.
-        format!(r#"{{"is":"failed","code":"bad-answer","text":"the answer cannot be written: {error}"}}"#)
+        // An answer holds finite numbers and words, which can always be written.
+        let text = format!("the answer cannot be written: {error}");
+        serde_json::json!({"is": "failed", "code": "bad-answer", "text": text}).to_string()
     })
 }
 

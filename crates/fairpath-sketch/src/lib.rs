@@ -15,6 +15,7 @@
 
 mod answers;
 mod background;
+mod boxes;
 mod carry;
 mod corrections;
 mod curve;

@@ -2,6 +2,7 @@
 //! out.
 
 use crate::background::Background;
+use crate::boxes::Boxes;
 use crate::corrections::Correction;
 use crate::curve::{Curve, CurveId, Pin};
 use crate::desk::{Desk, Slot, Ticket, Wish};
@@ -13,6 +14,7 @@ use crate::neatening::Neatening;
 use fairpath_curve::{Point, Similarity, Spline, Vec2};
 use fairpath_fit::{Template, TemplateError, TemplateSet};
 use fairpath_shape::{InflateOptions, Mesh};
+use std::cell::RefCell;
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
@@ -32,6 +34,8 @@ pub struct Session {
     trouble: Option<Trouble>,
     /// The surface that was made last, and the curve as it was then.
     pub(crate) surface: Option<(Arc<Curve>, Arc<Mesh>)>,
+    /// The boxes around the curves, as of when they were last asked for.
+    boxes: RefCell<Boxes>,
     /// Strokes drawn over curves that are not yet drawn into them, in their order.
     pub(crate) corrections: Vec<Correction>,
 }
@@ -267,9 +271,9 @@ impl Session {
     /// The curve nearest to a point within `reach`, and its nearest place: a station.
     #[must_use]
     pub fn nearest(&self, point: Point, reach: f64) -> Option<(CurveId, f64)> {
-        let within = |curve: &&Arc<Curve>| curve.spline.bounding_box().inflate(reach, reach).contains(point);
-        let candidates = self.drawing().curves().iter().filter(within);
-        let measured = candidates.map(|curve| (curve, curve.spline.nearest(point)));
+        let mut boxes = self.boxes.borrow_mut();
+        boxes.update(self.drawing().curves(), self.history.version());
+        let measured = boxes.near(point, reach).map(|curve| (curve, curve.spline.nearest(point)));
         let near = measured.filter(|(_, nearest)| nearest.distance <= reach);
         let best = near.min_by(|a, b| a.1.distance.total_cmp(&b.1.distance));
         best.map(|(curve, nearest)| (curve.id, curve.spline.station(nearest.segment, nearest.s)))
@@ -293,8 +297,10 @@ impl Session {
 
     /// Moves the selected curves; moves that follow each other are one step.
     pub fn move_selected(&mut self, by: Vec2) {
-        if !by.is_finite() {
-            return;
+        let stays = |id: &CurveId| self.drawing().curve(*id).is_none_or(|curve| stays_exact(curve, by));
+        if !self.selection.iter().all(stays) {
+            let text = "so far away the drawing would lose its shape; move it by less".into();
+            return self.report(Trouble { code: "too-far".into(), text });
         }
         let selection = &self.selection;
         for &id in selection {
@@ -358,6 +364,15 @@ impl Session {
         self.want_all();
         at
     }
+}
+
+/// A coordinate of more than this many lengths of a curve has too few digits left for its shape.
+const FARTHEST: f64 = 1e8;
+
+/// Whether a curve keeps its shape there.
+fn stays_exact(curve: &Curve, by: Vec2) -> bool {
+    let start = curve.spline.start_pose().point + by;
+    start.is_finite() && start.to_vec2().hypot() <= FARTHEST * curve.spline.length()
 }
 
 /// Whether a neatening can be done.
