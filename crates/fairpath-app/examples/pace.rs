@@ -23,7 +23,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let file = read_strokes(Path::new(&path), &ReadOptions::default())?;
         for stroke in &file.strokes {
             // Every stroke on paper of its own, or most would change the one before.
-            app.session_mut().open(Drawing::default());
+            app.open_drawing(Drawing::default());
             let points: Vec<Pos2> = placed(stroke.points.iter().map(|p| [p.x, p.y]));
             let (Some(&first), Some(&last)) = (points.first(), points.last()) else { continue };
             window.frame(&mut app, vec![Event::PointerMoved(first)]);

@@ -102,11 +102,18 @@ impl App {
         }
     }
 
-    fn open(&mut self, drawing: Drawing, name: &str) {
+    /// Goes on with another drawing, which cannot be undone; an empty one is seen with a point of the screen to a unit.
+    pub fn open_drawing(&mut self, drawing: Drawing) {
+        self.canvas.cancel(&mut self.session);
         self.session.open(drawing);
+        self.view.reset();
+        self.fit_view();
+    }
+
+    fn open(&mut self, drawing: Drawing, name: &str) {
+        self.open_drawing(drawing);
         self.document = Document { name: stem(name).into(), ..Document::default() };
         self.document.saved = self.session.history().version();
-        self.fit_view();
     }
 
     fn trace(&mut self, name: &str, bytes: &[u8]) -> Result<(), String> {

@@ -27,10 +27,18 @@ impl View {
     /// The view with the canvas there. The first time, the drawing's origin comes to its upper left corner, so that a unit of the drawing is a point
     /// of the screen.
     pub(crate) fn on(&mut self, canvas: Rect) {
-        if self.canvas.size() == Vec2::splat(1.0) {
-            self.centre = Point::new(0.5 * f64::from(canvas.width()), 0.5 * f64::from(canvas.height()));
-        }
+        let first = self.canvas.size() == Vec2::splat(1.0);
         self.canvas = canvas;
+        if first {
+            self.reset();
+        }
+    }
+
+    /// A unit of the drawing is a point of the screen again, and its origin the canvas's upper left corner.
+    pub(crate) fn reset(&mut self) {
+        self.zoom = 1.0;
+        let (width, height) = (f64::from(self.canvas.width()), f64::from(self.canvas.height()));
+        self.centre = Point::new(0.5 * width, 0.5 * height);
     }
 
     /// The canvas on the screen.

@@ -8,7 +8,7 @@ use fairpath_sketch::{Drawing, Session};
 /// The application without a first drawing, with a worker that answers at once. A unit of the drawing is a point of the window.
 pub(crate) fn empty_app<'a>() -> Harness<'a, App> {
     let mut harness = app();
-    harness.state_mut().session_mut().open(Drawing::default());
+    harness.state_mut().open_drawing(Drawing::default());
     harness.step();
     harness
 }
