@@ -15,8 +15,11 @@ fn refitted_apart(session: &Session, id: CurveId) -> f64 {
     }
 }
 
+/// What is done to a curve.
+type Edit = fn(&mut Session, CurveId);
+
 /// Every edit by name, made in the middle of a curve.
-fn edits() -> Vec<(&'static str, fn(&mut Session, CurveId))> {
+fn edits() -> Vec<(&'static str, Edit)> {
     vec![
         ("cut", |session, id| session.cut(id, 0.37 * spline(session, id).length())),
         ("open", |session, id| session.open_curve(id)),
@@ -47,7 +50,7 @@ fn edits() -> Vec<(&'static str, fn(&mut Session, CurveId))> {
 
 /// Distances for each edit over many strokes.
 fn distances(strokes: &[Vec<Point>]) -> Vec<(&'static str, Vec<f64>)> {
-    let of_edit = |(name, edit): (&'static str, fn(&mut Session, CurveId))| {
+    let of_edit = |(name, edit): (&'static str, Edit)| {
         let mut all = Vec::new();
         for points in strokes {
             let (mut session, ids) = session_of(std::slice::from_ref(points));
@@ -104,7 +107,7 @@ fn what_no_edit_touched_keeps_its_points() {
 #[test]
 fn the_parts_of_a_cut_share_the_points_among_them() {
     for shape in [wave(), eight()] {
-        let (mut session, ids) = session_of(&[shape.clone()]);
+        let (mut session, ids) = session_of(std::slice::from_ref(&shape));
         session.cut(ids[0], 0.4 * spline(&session, ids[0]).length());
         let mut shared = 0;
         for curve in session.drawing().curves() {

@@ -4,6 +4,7 @@ use fairpath_curve::{Point, Spline, Vec2};
 use fairpath_fit::Stroke;
 use fairpath_io::{ReadOptions, StrokeFormat, read_strokes_from};
 use fairpath_sketch::{CurveId, Session, run};
+use std::f64::consts::TAU;
 use std::path::Path;
 
 /// Points of a curve by its equation, with the tremor of a hand: the same on every run.
@@ -28,7 +29,7 @@ pub(crate) fn arch() -> Vec<Point> {
 
 /// A closed ellipse.
 pub(crate) fn ring() -> Vec<Point> {
-    points(100, |u| (240.0 + 110.0 * (6.283 * u).cos(), 320.0 + 60.0 * (6.283 * u).sin()))
+    points(100, |u| (240.0 + 110.0 * (TAU * u).cos(), 320.0 + 60.0 * (TAU * u).sin()))
 }
 
 /// Two straight legs.

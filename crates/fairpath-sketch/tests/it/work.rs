@@ -277,7 +277,7 @@ proptest! {
 #[test]
 fn a_drawn_stroke_becomes_to_the_bit_what_the_fitter_gives() {
     for points in shapes() {
-        let (session, ids) = session_of(&[points.clone()]);
+        let (session, ids) = session_of(std::slice::from_ref(&points));
         let expected = fit(&Stroke::new("x", points), &FitOptions::default()).unwrap();
         let curve = session.drawing().curve(ids[0]).unwrap();
         assert_eq!(bits(&curve.spline), bits(&expected.spline));
