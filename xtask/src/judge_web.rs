@@ -13,9 +13,6 @@ use crate::steps::Outcome;
 use crate::web::{self, Kind, Server, Toolchain};
 use crate::{process, tools, tree};
 
-/// What a visitor may have to download at most, gzipped.
-const MOST_GZIP_BYTES: u64 = 6_000_000;
-
 /// The time from navigation to the first frame that is wanted on this machine; told, not judged, since other machines are slower.
 const WANTED_READY_MS: f64 = 3000.0;
 
@@ -31,9 +28,6 @@ pub(crate) fn step() -> Result<Outcome> {
         Ok((browser, folder)) => {
             let page = web::build(Kind::Quick, Toolchain::Auto)?;
             println!("{page}");
-            if page.gzip_bytes() > MOST_GZIP_BYTES {
-                bail!("a visitor downloads {} bytes, more than {MOST_GZIP_BYTES}", page.gzip_bytes());
-            }
             judge(&page.folder, &browser, &folder)
         }
         Err(error) if tree::on_build_server() => Err(error),

@@ -52,15 +52,14 @@ pub struct PenReport {
     pub sample: PenSample,
 }
 
-/// All samples since the last call, in the order of their times, where the platform thins out what the user interface hears: in a browser.
-/// Empty on the desktop, whose windows hear everything.
+#[cfg(target_arch = "wasm32")]
+pub use crate::web::pen::drain;
+
+/// All samples since the last call, where the platform thins out what the user interface hears. The desktop's windows hear everything.
+#[cfg(not(target_arch = "wasm32"))]
 #[must_use]
 pub fn drain() -> Vec<PenSample> {
-    #[cfg(target_arch = "wasm32")]
-    let samples = crate::web::pen::drain();
-    #[cfg(not(target_arch = "wasm32"))]
-    let samples = Vec::new();
-    samples
+    Vec::new()
 }
 
 /// Sorts reports into strokes: one pointer draws at a time.

@@ -49,13 +49,13 @@ impl View {
     }
 
     /// Where a place of the drawing is on the screen.
-    pub(crate) fn to_screen(&self, point: Point) -> Pos2 {
+    pub(crate) fn screen_of(&self, point: Point) -> Pos2 {
         let from_centre = (point - self.centre) * self.zoom;
         self.canvas.center() + Vec2::new(from_centre.x as f32, from_centre.y as f32)
     }
 
     /// Which place of the drawing is there on the screen.
-    pub(crate) fn to_drawing(&self, pos: Pos2) -> Point {
+    pub(crate) fn drawing_at(&self, pos: Pos2) -> Point {
         let from_centre = pos - self.canvas.center();
         self.centre + self.vector(from_centre)
     }
@@ -72,9 +72,9 @@ impl View {
 
     /// Comes nearer by a factor; what is under `pos` stays there.
     pub(crate) fn zoom_at(&mut self, pos: Pos2, factor: f64) {
-        let fixed = self.to_drawing(pos);
+        let fixed = self.drawing_at(pos);
         self.zoom = (self.zoom * factor).clamp(*ZOOMS.start(), *ZOOMS.end());
-        self.centre += fixed - self.to_drawing(pos);
+        self.centre += fixed - self.drawing_at(pos);
     }
 
     /// Shows all of a box of the drawing with some room around it.
@@ -89,6 +89,6 @@ impl View {
 
     /// The part of the drawing that is seen, as two corners.
     pub(crate) fn seen(&self) -> [Point; 2] {
-        [self.to_drawing(self.canvas.min), self.to_drawing(self.canvas.max)]
+        [self.drawing_at(self.canvas.min), self.drawing_at(self.canvas.max)]
     }
 }

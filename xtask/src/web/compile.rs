@@ -29,7 +29,8 @@ pub(crate) fn lint() -> Result<bool> {
     if !has_target()? {
         return Ok(false);
     }
-    let mut clippy = process::cargo(&["clippy", "--quiet", "--package", "fairpath-app", "--lib", "--target", TARGET]);
+    let mut clippy =
+        process::cargo(&["clippy", "--quiet", "--no-deps", "--package", "fairpath-app", "--lib", "--target", TARGET]);
     clippy.arg("--target-dir").arg(tree::target_folder()?.join("web-build")).args(["--", "--deny", "warnings"]);
     process::run(&mut clippy)?;
     Ok(true)

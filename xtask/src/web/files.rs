@@ -46,7 +46,7 @@ struct Size {
 
 impl Page {
     /// Bytes that a browser which takes gzip only must download.
-    pub(crate) fn gzip_bytes(&self) -> u64 {
+    pub(super) fn gzip_bytes(&self) -> u64 {
         self.sizes.iter().map(|size| size.gzip).sum()
     }
 }

@@ -9,7 +9,7 @@ mod toolchain;
 
 use std::path::PathBuf;
 
-use anyhow::Result;
+use anyhow::{Result, bail};
 
 use crate::tree;
 
@@ -36,6 +36,14 @@ impl Kind {
         }
     }
 
+    /// How many bytes a visitor may have to download at most, gzipped. Hardly optimised, the page for tests is twice as large as the other.
+    fn most_gzip_bytes(self) -> u64 {
+        match self {
+            Self::Release => 6_000_000,
+            Self::Quick => 12_000_000,
+        }
+    }
+
     /// Where the page comes to lie.
     pub(crate) fn folder(self) -> Result<PathBuf> {
         Ok(tree::target_folder()?.join(self.profile()))
@@ -54,7 +62,7 @@ pub(crate) fn run(kind: Kind, toolchain: Toolchain, port: Option<u16>) -> Result
     Ok(())
 }
 
-/// Builds the page from the sources as they are.
+/// Builds the page from the sources as they are; too large a page is an error.
 pub(crate) fn build(kind: Kind, toolchain: Toolchain) -> Result<files::Page> {
     let wasm = compile::wasm(kind.profile(), toolchain)?;
     let folder = kind.folder()?;
@@ -64,5 +72,10 @@ pub(crate) fn build(kind: Kind, toolchain: Toolchain) -> Result<files::Page> {
     bindgen::run(&wasm, &fresh, files::PROGRAM)?;
     files::finish(&fresh)?;
     files::replace(&fresh, &folder)?;
-    files::measure(&folder)
+    let page = files::measure(&folder)?;
+    let (bytes, most) = (page.gzip_bytes(), kind.most_gzip_bytes());
+    if bytes > most {
+        bail!("{page}\na visitor downloads {bytes} bytes, gzipped, more than {most}");
+    }
+    Ok(page)
 }

@@ -37,7 +37,7 @@ impl Backdrop {
         let Some((_, Some(texture))) = &self.shown else { return };
         let [width, height] = texture.size();
         let size = Vec2::new(background.width, background.width * height as f64 / width as f64);
-        let rect = Rect::from_two_pos(view.to_screen(background.at), view.to_screen(background.at + size));
+        let rect = Rect::from_two_pos(view.screen_of(background.at), view.screen_of(background.at + size));
         let all = Rect::from_min_max(Pos2::ZERO, pos2(1.0, 1.0));
         painter.image(texture.id(), rect, all, Color32::WHITE.gamma_multiply(background.opacity as f32));
     }

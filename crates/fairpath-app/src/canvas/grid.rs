@@ -33,11 +33,11 @@ impl Brush<'_> {
         };
         let indices = |low: f64, high: f64| (low / step).floor() as i64..=(high / step).ceil() as i64;
         for i in indices(min.x, max.x) {
-            let x = snap(self.view.to_screen(Point::new(i as f64 * step, 0.0)).x);
+            let x = snap(self.view.screen_of(Point::new(i as f64 * step, 0.0)).x);
             self.painter.line_segment([pos2(x, canvas.top()), pos2(x, canvas.bottom())], stroke(i));
         }
         for i in indices(min.y, max.y) {
-            let y = snap(self.view.to_screen(Point::new(0.0, i as f64 * step)).y);
+            let y = snap(self.view.screen_of(Point::new(0.0, i as f64 * step)).y);
             self.painter.line_segment([pos2(canvas.left(), y), pos2(canvas.right(), y)], stroke(i));
         }
     }

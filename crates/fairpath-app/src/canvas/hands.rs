@@ -148,7 +148,7 @@ impl Hands {
         if button != PointerButton::Primary {
             return;
         }
-        let place = view.to_drawing(pos);
+        let place = view.drawing_at(pos);
         let grasp = GRASP * view.pixel_size();
         let near = session.nearest(place, grasp);
         match tool {
@@ -223,7 +223,7 @@ impl Hands {
     fn drag(&mut self, pos: Pos2, time: f64, session: &mut Session, view: &View) {
         match &mut self.gesture {
             Gesture::Draw if self.by_pen => {}
-            Gesture::Draw => session.extend_stroke(view.to_drawing(pos), Some(time), self.force),
+            Gesture::Draw => session.extend_stroke(view.drawing_at(pos), Some(time), self.force),
             Gesture::Move { last, moved } => {
                 let by = pos - *last;
                 if *moved || by.length() > 2.0 {
@@ -232,7 +232,7 @@ impl Hands {
                 }
             }
             Gesture::Pull { id, pin, share } => {
-                *pin = session.pin(*id, *pin, Pin { share: *share, point: view.to_drawing(pos) });
+                *pin = session.pin(*id, *pin, Pin { share: *share, point: view.drawing_at(pos) });
             }
             Gesture::None | Gesture::Pan | Gesture::Lengthen { .. } => {}
         }
@@ -310,7 +310,7 @@ impl Hands {
 
 /// Lengthens the stroke in hand to where the pen is.
 fn extend(session: &mut Session, view: &View, sample: PenSample) {
-    let place = view.to_drawing(Pos2::new(sample.x as f32, sample.y as f32));
+    let place = view.drawing_at(Pos2::new(sample.x as f32, sample.y as f32));
     session.extend_stroke(place, Some(sample.time_s), sample.pressure.map(f64::from));
 }
 
@@ -323,14 +323,14 @@ fn fresh(modifiers: Modifiers) -> bool {
 fn grasped_end(session: &Session, view: &View, pos: Pos2) -> Option<(CurveId, CurveEnd)> {
     let curve = session.selected().filter(|curve| !curve.spline.is_closed())?;
     let ends = [(CurveEnd::Start, curve.spline.start_pose()), (CurveEnd::End, curve.spline.end_pose())];
-    let near = |pose: &fairpath_curve::Pose| f64::from(view.to_screen(pose.point).distance(pos)) <= GRASP;
+    let near = |pose: &fairpath_curve::Pose| f64::from(view.screen_of(pose.point).distance(pos)) <= GRASP;
     ends.iter().find(|(_, pose)| near(pose)).map(|(end, _)| (curve.id, *end))
 }
 
 /// Lengthens a curve towards where the pointer let go of its end, or cuts it back to there.
 fn lengthen(session: &mut Session, view: &View, id: CurveId, end: CurveEnd, pos: Pos2) {
     let Some(curve) = session.drawing().curve(id) else { return };
-    let place = view.to_drawing(pos);
+    let place = view.drawing_at(pos);
     let pose = match end {
         CurveEnd::Start => curve.spline.start_pose(),
         CurveEnd::End => curve.spline.end_pose(),

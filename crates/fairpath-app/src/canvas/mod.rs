@@ -46,7 +46,7 @@ impl Canvas {
             ui.ctx().set_cursor_icon(self.cursor(ui, tool));
         }
         if let Some(pos) = response.hover_pos().filter(|_| !self.hands.busy() && response.contains_pointer()) {
-            let place = view.to_drawing(pos);
+            let place = view.drawing_at(pos);
             self.hovered = session.nearest(place, GRASP * view.pixel_size());
         }
         self.paint(ui, rect, session, view, shown);

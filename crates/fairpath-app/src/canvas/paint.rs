@@ -25,7 +25,7 @@ pub(crate) struct Brush<'a> {
 
 impl Brush<'_> {
     fn path(&self, points: &[Point], stroke: Stroke) {
-        let points: Vec<Pos2> = points.iter().map(|&point| self.view.to_screen(point)).collect();
+        let points: Vec<Pos2> = points.iter().map(|&point| self.view.screen_of(point)).collect();
         self.painter.add(egui::Shape::line(points, stroke));
     }
 
@@ -76,7 +76,7 @@ impl Brush<'_> {
             self.pins(curve);
         }
         if let Some((curve, station)) = hovered {
-            let place = self.view.to_screen(curve.spline.point_at(station));
+            let place = self.view.screen_of(curve.spline.point_at(station));
             self.painter.circle(place, 4.0, self.palette.paper, Stroke::new(1.5, self.palette.accent));
         }
         self.hand(session);
@@ -119,7 +119,7 @@ impl Brush<'_> {
         let thin = Stroke::new(0.75, self.palette.comb);
         let mut hull: Vec<Pos2> = Vec::with_capacity(teeth.len());
         for tooth in &teeth {
-            let [base, tip] = [tooth.base, tooth.tip].map(|point| self.view.to_screen(point));
+            let [base, tip] = [tooth.base, tooth.tip].map(|point| self.view.screen_of(point));
             self.painter.line_segment([base, tip], thin);
             hull.push(tip);
         }
@@ -132,7 +132,7 @@ impl Brush<'_> {
         let mark = Stroke::new(1.25, self.palette.ink);
         for (i, join) in spline.joins().iter().enumerate() {
             let end = segments[i].end_pose();
-            let place = self.view.to_screen(end.point);
+            let place = self.view.screen_of(end.point);
             if *join == Continuity::G0 {
                 let square = egui::Rect::from_center_size(place, egui::Vec2::splat(7.0));
                 self.painter.rect(square, 0.0, self.palette.paper, mark, StrokeKind::Middle);
@@ -143,7 +143,7 @@ impl Brush<'_> {
         }
         if !spline.is_closed() {
             for end in [spline.start_pose(), spline.end_pose()] {
-                let place = self.view.to_screen(end.point);
+                let place = self.view.screen_of(end.point);
                 self.painter.circle(place, 4.5, self.palette.paper, Stroke::new(1.5, self.palette.accent));
             }
         }
@@ -151,7 +151,7 @@ impl Brush<'_> {
 
     fn pins(&self, curve: &Curve) {
         for pin in &curve.pins {
-            let place = self.view.to_screen(pin.point);
+            let place = self.view.screen_of(pin.point);
             self.painter.circle(place, 4.0, self.palette.preview, Stroke::new(1.5, self.palette.paper));
         }
     }

@@ -40,6 +40,7 @@ thread_local! {
 }
 
 /// All samples since the last call, in the order of their times. Places are in points of the user interface from the canvas's corner.
+#[must_use]
 pub fn drain() -> Vec<PenSample> {
     HEARD.with_borrow_mut(|heard| mem::take(&mut heard.samples))
 }

@@ -15,11 +15,11 @@ fn refitted_apart(session: &Session, id: CurveId) -> f64 {
     }
 }
 
-/// What is done to a curve.
-type Edit = fn(&mut Session, CurveId);
+/// A deed by hand with its name.
+type NamedEdit = (&'static str, fn(&mut Session, CurveId));
 
 /// Every edit by name, made in the middle of a curve.
-fn edits() -> Vec<(&'static str, Edit)> {
+fn edits() -> Vec<NamedEdit> {
     vec![
         ("cut", |session, id| session.cut(id, 0.37 * spline(session, id).length())),
         ("open", |session, id| session.open_curve(id)),
@@ -50,7 +50,7 @@ fn edits() -> Vec<(&'static str, Edit)> {
 
 /// Distances for each edit over many strokes.
 fn distances(strokes: &[Vec<Point>]) -> Vec<(&'static str, Vec<f64>)> {
-    let of_edit = |(name, edit): (&'static str, Edit)| {
+    let of_edit = |(name, edit): (&'static str, fn(&mut Session, CurveId))| {
         let mut all = Vec::new();
         for points in strokes {
             let (mut session, ids) = session_of(std::slice::from_ref(points));
