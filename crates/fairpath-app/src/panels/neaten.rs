@@ -69,6 +69,10 @@ pub(crate) fn show(app: &mut App, ui: &Ui) {
             if icon_button(ui, Icon::SlidersHorizontal, "All options", "", open, true).clicked() {
                 app.panels.advanced = !open;
             }
+            if wish.method != app.session.neatening().method {
+                // Options of one method mean nothing to another.
+                wish.set.clear();
+            }
             if wish != *app.session.neatening() {
                 app.session.set_neatening(wish);
             }
