@@ -35,8 +35,7 @@ impl Default for Document {
 }
 
 impl App {
-    /// Whether something would be lost if the drawing were gone. A page has no window to hold open: what it shows is kept.
-    #[cfg(not(target_arch = "wasm32"))]
+    /// Whether there is something that is in no file yet.
     pub(crate) fn is_unsaved(&self) -> bool {
         self.document.saved != self.session.history().version() && self.session.history().undoable().is_some()
     }

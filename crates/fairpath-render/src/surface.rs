@@ -148,6 +148,7 @@ impl SurfaceRenderer {
     }
 
     /// The picture that was drawn last.
+    #[cfg(not(target_arch = "wasm32"))]
     pub(crate) fn picture(&self) -> Option<&wgpu::Texture> {
         self.target.as_ref().map(Target::picture)
     }

@@ -26,6 +26,8 @@ pub(crate) fn samples(adapter: &wgpu::Adapter) -> u32 {
 #[derive(Debug)]
 pub(crate) struct Target {
     size: [u32; 2],
+    /// For pictures without a window, which a browser has none of.
+    #[cfg(not(target_arch = "wasm32"))]
     picture: wgpu::Texture,
     picture_view: wgpu::TextureView,
     /// Several samples to a pixel, merged into the picture; none where the picture itself is drawn into.
@@ -60,13 +62,21 @@ impl Target {
         let picture = texture("picture", PICTURE_FORMAT, 1, shown);
         let sampled = (samples > 1).then(|| view(&texture("samples", PICTURE_FORMAT, samples, drawn)));
         let depth = view(&texture("depths", DEPTH_FORMAT, samples, drawn));
-        Ok(Self { size, picture_view: view(&picture), picture, sampled, depth })
+        Ok(Self {
+            size,
+            picture_view: view(&picture),
+            #[cfg(not(target_arch = "wasm32"))]
+            picture,
+            sampled,
+            depth,
+        })
     }
 
     pub(crate) fn size(&self) -> [u32; 2] {
         self.size
     }
 
+    #[cfg(not(target_arch = "wasm32"))]
     pub(crate) fn picture(&self) -> &wgpu::Texture {
         &self.picture
     }
