@@ -1,6 +1,6 @@
 //! The application: what it holds, and the order in which a frame goes.
 
-use crate::canvas::Canvas;
+use crate::canvas::{Canvas, Work};
 use crate::documents::Document;
 use crate::files::Files;
 use crate::pace::{Pace, PaceReport};
@@ -191,7 +191,8 @@ impl App {
         panels::shortcuts::read(self, ui);
         panels::plot::show(self, ui);
         CentralPanel::default().frame(Frame::NONE).show(ui, |ui| {
-            self.canvas.show(ui, &mut self.session, &mut self.view, self.tool, &self.shown);
+            let Self { session, view, tool, shown, .. } = self;
+            self.canvas.show(ui, Work { session, view, tool: *tool, shown });
             if std::mem::take(&mut self.fit_view) {
                 self.fit_view();
                 ui.ctx().request_repaint();
@@ -264,6 +265,10 @@ impl eframe::App for App {
     #[cfg(target_arch = "wasm32")]
     fn as_any_mut(&mut self) -> Option<&mut dyn std::any::Any> {
         Some(&mut *self)
+    }
+
+    fn on_exit(&mut self) {
+        self.keep_now();
     }
 
     fn clear_color(&self, visuals: &egui::Visuals) -> [f32; 4] {

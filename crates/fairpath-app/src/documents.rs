@@ -9,10 +9,9 @@ use fairpath_sketch::{
     Background, Drawing, DrawingError, decode_drawing, encode_drawing, import, is_drawing, splines_of, strokes_of,
 };
 use std::sync::Arc;
-use web_time::{Duration, Instant};
 
-/// A change is kept no later than this after it was made.
-const KEEP_AFTER: Duration = Duration::from_secs(5);
+/// A change is kept so long after it was made, seconds of the interface's clock.
+const KEEP_AFTER_S: f64 = 5.0;
 
 /// What the application knows of its document.
 #[derive(Debug)]
@@ -23,7 +22,7 @@ pub(crate) struct Document {
     saved: u64,
     /// The version that is kept against crashes, and since when a newer one waits.
     kept: u64,
-    waiting: Option<Instant>,
+    waiting: Option<f64>,
     /// The version that is about to be saved.
     saving: u64,
 }
@@ -206,19 +205,30 @@ impl App {
         if let Some(text) = self.store.trouble() {
             self.panels.say(format!("This drawing is not kept against crashes. {text}"));
         }
-        let version = self.session.history().version();
-        if version == self.document.kept || self.session.history().undoable().is_none() {
+        if !self.is_to_be_kept() {
             return;
         }
-        let since = *self.document.waiting.get_or_insert_with(Instant::now);
-        let left = KEEP_AFTER.saturating_sub(since.elapsed());
-        if left.is_zero() && self.session.hand().is_none() {
+        let now = ctx.input(|i| i.time);
+        let left = KEEP_AFTER_S - (now - *self.document.waiting.get_or_insert(now));
+        // Encoding takes a moment that a stroke in hand should not feel.
+        if left <= 0.0 && self.session.hand().is_none() {
+            self.keep_now();
+        } else {
+            ctx.request_repaint_after_secs(left.max(0.2) as f32);
+        }
+    }
+
+    fn is_to_be_kept(&self) -> bool {
+        self.session.history().version() != self.document.kept && self.session.history().undoable().is_some()
+    }
+
+    /// Keeps the drawing against crashes, if it has changed since that was done last.
+    pub fn keep_now(&mut self) {
+        if self.is_to_be_kept() {
             let drawing = self.session.drawing().clone();
             self.store.keep(Box::new(move || encode_drawing(&drawing).map_err(told)));
-            self.document.kept = version;
+            self.document.kept = self.session.history().version();
             self.document.waiting = None;
-        } else {
-            ctx.request_repaint_after(left.max(Duration::from_millis(200)));
         }
     }
 }

@@ -1,6 +1,8 @@
 //! What hands do on the canvas: events of the pointer come in, deeds of the session and moves of the view go out.
 
-use crate::app::{Shown, Tool};
+use super::Work;
+use super::comb::Handle;
+use crate::app::Tool;
 use crate::pen::{self, PenPhase, PenSample};
 use crate::view::View;
 use eframe::egui::{self, Event, Key, Modifiers, PointerButton, Pos2, Response, TouchId, TouchPhase, Ui};
@@ -38,6 +40,8 @@ enum Gesture {
         id: CurveId,
         end: CurveEnd,
     },
+    /// Makes the teeth of the comb longer or shorter.
+    Scale(Handle),
 }
 
 /// Fingers on the glass.
@@ -69,15 +73,7 @@ impl Hands {
     }
 
     /// Reads the events of a frame in their order. `canvas` is the response of the canvas, which tells whether something lies over it.
-    pub(crate) fn read(
-        &mut self,
-        ui: &Ui,
-        canvas: &Response,
-        session: &mut Session,
-        view: &mut View,
-        tool: Tool,
-        shown: &Shown,
-    ) {
+    pub(crate) fn read(&mut self, ui: &Ui, canvas: &Response, work: &mut Work<'_>) {
         let (events, time, space, modifiers) =
             ui.input(|i| (i.events.clone(), i.time, i.key_down(Key::Space), i.modifiers));
         self.pen.extend(pen::drain());
@@ -87,38 +83,38 @@ impl Hands {
             match *event {
                 Event::Touch { id, phase, pos, force, .. } => {
                     self.force = force.map(f64::from);
-                    self.touch(id, phase, pos, time, session);
+                    self.touch(id, phase, pos, time, work.session);
                 }
                 Event::PointerButton { pos, button, pressed: true, modifiers } if over && !self.busy() => {
-                    self.press(pos, button, space, modifiers, time, session, view, tool, shown);
+                    self.press(pos, button, space, modifiers, time, work);
                 }
                 Event::PointerMoved(pos) => {
-                    self.drag(pos, time, session, view);
+                    self.drag(pos, time, work);
                     moved = true;
                 }
                 Event::PointerButton { pos, pressed: false, .. } if self.busy() => {
-                    self.follow_pen(session, view);
-                    self.release(pos, modifiers, session, view);
+                    self.follow_pen(work.session, work.view);
+                    self.release(pos, modifiers, work);
                 }
-                Event::PointerGone | Event::WindowFocused(false) => self.cancel(session),
+                Event::PointerGone | Event::WindowFocused(false) => self.cancel(work.session),
                 _ => {}
             }
         }
         if self.gesture == Gesture::Draw {
-            moved |= self.follow_pen(session, view);
+            moved |= self.follow_pen(work.session, work.view);
             if self.pen.pop_front().is_some_and(|sample| sample.phase == PenPhase::Cancel) {
-                self.cancel(session);
+                self.cancel(work.session);
             }
         } else {
             self.pen.clear();
         }
         if self.gesture == Gesture::Pan && moved {
-            view.pan(ui.input(|i| i.pointer.delta()));
+            work.view.pan(ui.input(|i| i.pointer.delta()));
         }
         if self.gesture == Gesture::Draw && moved {
-            session.watch_stroke(fresh(modifiers));
+            work.session.watch_stroke(fresh(modifiers));
         }
-        self.zoom(ui, over, session, view);
+        self.zoom(ui, over, work);
     }
 
     /// Drops what is in hand.
@@ -128,7 +124,6 @@ impl Hands {
         self.gesture = Gesture::None;
     }
 
-    #[expect(clippy::too_many_arguments, reason = "everything that a press can be about")]
     fn press(
         &mut self,
         pos: Pos2,
@@ -136,10 +131,7 @@ impl Hands {
         space: bool,
         modifiers: Modifiers,
         time: f64,
-        session: &mut Session,
-        view: &View,
-        tool: Tool,
-        shown: &Shown,
+        work: &mut Work<'_>,
     ) {
         if button == PointerButton::Middle || (button == PointerButton::Primary && space) {
             self.gesture = Gesture::Pan;
@@ -148,10 +140,17 @@ impl Hands {
         if button != PointerButton::Primary {
             return;
         }
+        if let Some(handle) = Handle::of_selected(work.session, work.view, work.shown)
+            && f64::from(handle.place(work.shown.comb_scale).distance(pos)) <= GRASP
+        {
+            self.gesture = Gesture::Scale(handle);
+            return;
+        }
+        let Work { session, view, tool, shown } = work;
         let place = view.drawing_at(pos);
         let grasp = GRASP * view.pixel_size();
         let near = session.nearest(place, grasp);
-        match tool {
+        match *tool {
             Tool::Draw => {
                 session.begin_stroke(view.pixel_size(), shown.greedy);
                 self.gesture = Gesture::Draw;
@@ -220,7 +219,8 @@ impl Hands {
         moved
     }
 
-    fn drag(&mut self, pos: Pos2, time: f64, session: &mut Session, view: &View) {
+    fn drag(&mut self, pos: Pos2, time: f64, work: &mut Work<'_>) {
+        let Work { session, view, shown, .. } = work;
         match &mut self.gesture {
             Gesture::Draw if self.by_pen => {}
             Gesture::Draw => session.extend_stroke(view.drawing_at(pos), Some(time), self.force),
@@ -234,11 +234,13 @@ impl Hands {
             Gesture::Pull { id, pin, share } => {
                 *pin = session.pin(*id, *pin, Pin { share: *share, point: view.drawing_at(pos) });
             }
+            Gesture::Scale(handle) => shown.comb_scale = handle.scale_at(pos),
             Gesture::None | Gesture::Pan | Gesture::Lengthen { .. } => {}
         }
     }
 
-    fn release(&mut self, pos: Pos2, modifiers: Modifiers, session: &mut Session, view: &View) {
+    fn release(&mut self, pos: Pos2, modifiers: Modifiers, work: &mut Work<'_>) {
+        let Work { session, view, .. } = work;
         match self.gesture {
             Gesture::Draw => {
                 if let Some(tapped) = session.finish_stroke(fresh(modifiers)) {
@@ -287,7 +289,8 @@ impl Hands {
     }
 
     /// The wheel and two fingers.
-    fn zoom(&mut self, ui: &Ui, over: bool, session: &mut Session, view: &mut View) {
+    fn zoom(&mut self, ui: &Ui, over: bool, work: &mut Work<'_>) {
+        let Work { session, view, .. } = work;
         if let Some(touch) = ui.input(|i| i.multi_touch()) {
             self.cancel(session);
             view.pan(touch.translation_delta);

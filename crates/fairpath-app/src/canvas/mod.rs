@@ -1,6 +1,7 @@
 //! The canvas: where strokes are drawn and curves are seen.
 
 mod backdrop;
+mod comb;
 mod grid;
 mod hands;
 mod paint;
@@ -29,6 +30,14 @@ pub(crate) struct Canvas {
     pub(crate) hovered: Option<(CurveId, f64)>,
 }
 
+/// What hands on the canvas work with.
+pub(crate) struct Work<'a> {
+    pub(crate) session: &'a mut Session,
+    pub(crate) view: &'a mut View,
+    pub(crate) tool: Tool,
+    pub(crate) shown: &'a mut Shown,
+}
+
 impl Canvas {
     /// Drops what is in hand.
     pub(crate) fn cancel(&mut self, session: &mut Session) {
@@ -36,12 +45,13 @@ impl Canvas {
     }
 
     /// Shows the canvas in all of `ui` and does what hands do on it.
-    pub(crate) fn show(&mut self, ui: &mut Ui, session: &mut Session, view: &mut View, tool: Tool, shown: &Shown) {
+    pub(crate) fn show(&mut self, ui: &mut Ui, mut work: Work<'_>) {
         let rect = ui.max_rect();
-        view.on(rect);
+        work.view.on(rect);
         let response = ui.interact(rect, ui.scope_id().with("canvas"), Sense::click_and_drag());
         response.widget_info(|| WidgetInfo::labeled(Role::Canvas, true, "Canvas"));
-        self.hands.read(ui, &response, session, view, tool, shown);
+        self.hands.read(ui, &response, &mut work);
+        let Work { session, view, tool, shown } = work;
         if response.contains_pointer() {
             ui.ctx().set_cursor_icon(self.cursor(ui, tool));
         }

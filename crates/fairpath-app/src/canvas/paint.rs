@@ -1,5 +1,6 @@
 //! What is on the canvas: a session and a view come in, strokes of paint go out. Nothing here changes anything.
 
+use super::comb::Handle;
 use super::shapes::{Shape, Shapes};
 use crate::app::{Ink, Shown};
 use crate::theme::Palette;
@@ -74,6 +75,10 @@ impl Brush<'_> {
             }
             self.joins(&curve.spline);
             self.pins(curve);
+            if let Some(handle) = Handle::of_selected(session, self.view, self.shown) {
+                let place = handle.place(self.shown.comb_scale);
+                self.painter.circle(place, 4.5, self.palette.comb_hull, Stroke::new(1.5, self.palette.paper));
+            }
         }
         if let Some((curve, station)) = hovered {
             let place = self.view.screen_of(curve.spline.point_at(station));

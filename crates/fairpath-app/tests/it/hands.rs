@@ -2,7 +2,7 @@
 
 use eframe::egui::{Event, Modifiers, PointerButton, Pos2, pos2};
 use egui_kittest::Harness;
-use fairpath_app::{App, InlineWorker, NoStore};
+use fairpath_app::{App, InlineWorker, NoStore, Store};
 use fairpath_sketch::{Drawing, Session};
 
 /// The application without a first drawing, with a worker that answers at once. A unit of the drawing is a point of the window.
@@ -15,9 +15,14 @@ pub(crate) fn empty_app<'a>() -> Harness<'a, App> {
 
 /// The application as it starts.
 pub(crate) fn app<'a>() -> Harness<'a, App> {
+    app_with(Box::new(NoStore))
+}
+
+/// The application as it starts, with a store.
+pub(crate) fn app_with<'a>(store: Box<dyn Store>) -> Harness<'a, App> {
     let builder = Harness::builder().with_size([1000.0, 700.0]).with_max_steps(20);
-    let mut harness = builder
-        .build_eframe(|creation| App::new(&creation.egui_ctx, Box::<InlineWorker>::default(), Box::new(NoStore)));
+    let mut harness =
+        builder.build_eframe(|creation| App::new(&creation.egui_ctx, Box::<InlineWorker>::default(), store));
     harness.run_steps(3);
     harness
 }

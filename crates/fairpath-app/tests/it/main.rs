@@ -1,5 +1,6 @@
 //! The application, driven as hands and keys drive it.
 
+mod documents;
 mod draw;
 mod hands;
 mod surface_view;

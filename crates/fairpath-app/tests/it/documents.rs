@@ -1,0 +1,65 @@
+//! The drawing as a document: kept against crashes, opened, imported.
+
+use crate::hands::{app_with, arch, draw, empty_app, session};
+use eframe::egui::{Key, Modifiers};
+use fairpath_app::{App, FileStore};
+use fairpath_sketch::decode_drawing;
+use std::fs;
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+/// What is kept in a file, as soon as it holds so many curves; a thread writes it.
+fn kept(path: &Path, curves: usize) -> fairpath_sketch::Drawing {
+    let begun = Instant::now();
+    loop {
+        let drawing = fs::read(path).ok().and_then(|bytes| decode_drawing(&bytes, "kept").ok());
+        if let Some(drawing) = drawing.filter(|drawing| drawing.curves().len() == curves) {
+            return drawing;
+        }
+        assert!(begun.elapsed() < Duration::from_secs(60), "nothing was kept");
+        std::thread::yield_now();
+    }
+}
+
+#[test]
+fn what_was_drawn_fifteen_seconds_ago_is_offered_after_a_crash() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("deep/kept.json");
+    let mut first = app_with(Box::new(FileStore::at(path.clone())));
+    first.state_mut().open_drawing(fairpath_sketch::Drawing::default());
+    draw(&mut first, &arch(300.0, 300.0, 80.0));
+    draw(&mut first, &arch(600.0, 300.0, 80.0));
+    let before = session(&first).drawing().clone();
+    // A step of the harness is a quarter of a second.
+    first.run_steps(60);
+    let on_disk = kept(&path, 2);
+    assert!(on_disk == before, "what is kept is what was drawn");
+
+    // Nobody said goodbye to the first; the second starts beside it.
+    let mut second = app_with(Box::new(FileStore::at(path)));
+    assert!(*session(&second).drawing() == before, "it is here again");
+    second.key_press_modifiers(Modifiers::COMMAND, Key::Z);
+    second.run_steps(2);
+    assert!(session(&second).drawing().curves().is_empty(), "undo leads to an empty drawing");
+}
+
+#[test]
+fn a_damaged_file_is_told_of_and_left_alone() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("kept.json");
+    fs::write(&path, "{\"format\":\"fairpath-drawing\",").unwrap();
+    let harness = app_with(Box::new(FileStore::at(path.clone())));
+    assert!(session(&harness).drawing().curves().len() > 2, "the first drawing is shown instead");
+    assert_eq!(fs::read_to_string(path).unwrap(), "{\"format\":\"fairpath-drawing\",");
+}
+
+#[test]
+fn the_state_tells_the_drawing_and_whether_it_is_settled() {
+    let mut harness = empty_app();
+    draw(&mut harness, &arch(500.0, 400.0, 120.0));
+    let state: serde_json::Value = serde_json::from_str(&App::state_json(harness.state())).unwrap();
+    assert_eq!(state["settled"], true);
+    assert_eq!(state["unsaved"], true);
+    assert_eq!(state["drawing"]["curves"].as_array().unwrap().len(), 1);
+    assert_eq!(state["pace"]["curves"]["count"], 1);
+}
