@@ -14,8 +14,8 @@ use std::path::{Path, PathBuf};
 /// The window, points.
 const WINDOW: Vec2 = Vec2::new(1180.0, 740.0);
 
-/// Pixels to a point: fine enough for a page that is printed.
-const DENSITY: f32 = 1.5;
+/// Pixels to a point.
+const DENSITY: f32 = 1.0;
 
 type Window = Harness<'static, App>;
 
@@ -27,6 +27,7 @@ const SCENES: [Scene; 6] = [
     ("app-combs", Theme::Light, |app| {
         select(app, 0);
         press_keys(app, &[Key::Num3, Key::Num4]);
+        app.key_press_modifiers(Modifiers::COMMAND, Key::Num0);
     }),
     ("app-oversketch", Theme::Light, |app| {
         select_none(app);

@@ -15,6 +15,8 @@ const CURVE_WIDTH: f32 = 2.0;
 const SELECTED_WIDTH: f32 = 8.0;
 /// Distance of the teeth of a comb, points.
 const TOOTH_SPACING: f64 = 5.0;
+/// Fewest teeth of a segment.
+const LEAST_TEETH: f64 = 10.0;
 
 /// Everything that a painter needs to know.
 pub(crate) struct Brush<'a> {
@@ -61,7 +63,9 @@ impl Brush<'_> {
             if !shape.is_within(seen, margin) {
                 continue;
             }
-            if session.selection().contains(&curve.id) {
+            let selected = session.selection().contains(&curve.id);
+            // French curves lie where the mark would.
+            if selected && !(self.shown.templates && curve.templates.is_some()) {
                 self.shape(&shape, |_| Stroke::new(SELECTED_WIDTH, self.palette.selected));
             }
             if self.shown.comb {
@@ -120,13 +124,16 @@ impl Brush<'_> {
     pub(crate) fn comb(&self, spline: &Spline) {
         let pixel = self.view.pixel_size();
         let scale = self.shown.comb_scale * pixel * pixel;
-        let teeth = spline.comb(TOOTH_SPACING * pixel, scale);
         let thin = Stroke::new(0.75, self.palette.comb);
-        let mut hull: Vec<Pos2> = Vec::with_capacity(teeth.len());
-        for tooth in &teeth {
-            let [base, tip] = [tooth.base, tooth.tip].map(|point| self.view.screen_of(point));
-            self.painter.line_segment([base, tip], thin);
-            hull.push(tip);
+        let mut hull: Vec<Pos2> = Vec::new();
+        for segment in spline.segments() {
+            // In a tight bend the line through the tips is much longer than the curve.
+            let spacing = (TOOTH_SPACING * pixel).min(segment.length / LEAST_TEETH);
+            for tooth in segment.comb(spacing, scale) {
+                let [base, tip] = [tooth.base, tooth.tip].map(|point| self.view.screen_of(point));
+                self.painter.line_segment([base, tip], thin);
+                hull.push(tip);
+            }
         }
         self.painter.add(egui::Shape::line(hull, Stroke::new(1.25, self.palette.comb_hull)));
     }

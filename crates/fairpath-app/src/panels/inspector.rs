@@ -7,7 +7,13 @@ use fairpath_curve::{Continuity, Kind, Segment, Spline};
 use fairpath_sketch::Curve;
 
 /// Width of the panel, points.
-const WIDTH: f32 = 248.0;
+const WIDTH: f32 = 272.0;
+
+/// Height of a row of figures, points.
+const ROW: f32 = 17.0;
+
+/// A radius so many times the curve's length is that of a straight line.
+const STRAIGHT: f64 = 100.0;
 
 /// Shows the figures.
 pub(crate) fn show(app: &mut App, ui: &Ui) {
@@ -18,6 +24,7 @@ pub(crate) fn show(app: &mut App, ui: &Ui) {
     let unit = app.session.drawing().unit.as_str();
     float(ui, "inspector", Align2::RIGHT_TOP, vec2(-MARGIN, MARGIN + 56.0), |ui| {
         ui.set_width(WIDTH);
+        ui.spacing_mut().interact_size.y = ROW;
         ui.label(RichText::new(&curve.name).heading());
         figures(ui, &curve, unit);
         for warning in &curve.warnings {
@@ -62,10 +69,12 @@ fn segments(ui: &mut Ui, spline: &Spline) {
                 let kind = match segment.kind() {
                     Kind::Line => "line",
                     Kind::Arc => "arc",
-                    Kind::Clothoid => "cloth.",
+                    Kind::Clothoid => "clothoid",
                 };
-                let radius =
-                    |kappa: f64| if kappa == 0.0 { "∞".to_owned() } else { format!("{:.0}", 1.0 / kappa.abs()) };
+                let radius = |kappa: f64| match 1.0 / kappa.abs() {
+                    radius if radius > STRAIGHT * spline.length() => "∞".to_owned(),
+                    radius => format!("{radius:.0}"),
+                };
                 ui.label(kind);
                 ui.label(format!("{:.0}, {:.0}", segment.start.x, segment.start.y));
                 ui.label(format!("{:.1}", segment.length));

@@ -6,14 +6,20 @@ use eframe::egui::{Panel, Ui};
 use egui_plot::{HLine, Line, Plot, PlotPoints, VLine};
 use fairpath_curve::Spline;
 
-/// Points of a segment's curvature in the plot: two, since it is linear.
+/// Where a segment's straight line in the plot has points. Two would do, but where a painted line turns sharply, as at a peak of curvature, its width is
+/// wrong as far as the next point.
+const PLACES: [f64; 5] = [0.0, 0.02, 0.5, 0.98, 1.0];
+
+/// The curvature along a curve: straight along each segment, upright where it jumps.
 fn profile(spline: &Spline) -> Vec<[f64; 2]> {
     let mut station = 0.0;
-    let mut points = Vec::with_capacity(2 * spline.segments().len());
+    let mut points: Vec<[f64; 2]> = Vec::with_capacity(PLACES.len() * spline.segments().len());
     for segment in spline.segments() {
-        points.push([station, segment.kappa0]);
+        points.extend(PLACES.map(|u| {
+            let kappa = segment.kappa0 + u * (segment.kappa1 - segment.kappa0);
+            [station + u * segment.length, kappa]
+        }));
         station += segment.length;
-        points.push([station, segment.kappa1]);
     }
     points
 }
@@ -36,6 +42,7 @@ pub(crate) fn show(app: &mut App, ui: &mut Ui) {
             .allow_drag(false)
             .allow_boxed_zoom(false)
             .show_background(false)
+            .grid_color(palette.grid_strong)
             .include_x(0.0)
             .include_x(length)
             .x_axis_label("arc length")

@@ -9,7 +9,11 @@ use fairpath_render::{Finish, Zebra};
 use fairpath_shape::InflateOptions;
 
 /// Side of the view, points.
-const SIDE: f32 = 300.0;
+const SIDE: f32 = 280.0;
+
+/// Room that it leaves for the tools at its left and the slider below, points.
+const BESIDE: f32 = 56.0;
+const ABOVE: f32 = 56.0;
 
 /// Shows the surface, if one was asked for.
 pub(crate) fn show(app: &mut App, ui: &Ui) {
@@ -21,7 +25,7 @@ pub(crate) fn show(app: &mut App, ui: &Ui) {
     };
     let mut keep = true;
     let mut zebra = app.panels.zebra;
-    let shown = float(ui, "surface", Align2::LEFT_BOTTOM, vec2(MARGIN, -MARGIN), |ui| {
+    let shown = float(ui, "surface", Align2::LEFT_BOTTOM, vec2(MARGIN + BESIDE, -MARGIN - ABOVE), |ui| {
         ui.set_width(SIDE);
         ui.horizontal(|ui| {
             ui.label("Surface");
