@@ -1,4 +1,5 @@
-//! Pictures of pages for the documents, taken by a browser. They differ a little from browser to browser, so no test compares them.
+//! Pictures for the documents: of pages, taken by a browser, and of the application, drawn by the graphics device. They differ a little from one to the
+//! other, so no test compares them.
 
 use std::process::Command;
 
@@ -6,8 +7,22 @@ use anyhow::{Result, bail};
 
 use crate::{process, tools, tree};
 
-/// Writes `docs/comparison.png`: every method on one of the synthetic strokes.
+/// Draws all of them anew.
 pub(crate) fn run() -> Result<()> {
+    comparison()?;
+    application()
+}
+
+/// Writes `docs/app-*.png`: the application in the states that the documents tell of.
+fn application() -> Result<()> {
+    tools::graphics()?;
+    // The build of the tests is at hand, and fast enough.
+    let example = ["run", "--quiet", "--package", "fairpath-app", "--example", "pictures", "--"];
+    process::run(process::cargo(&example).arg(tree::root().join("docs")))
+}
+
+/// Writes `docs/comparison.png`: every method on one of the synthetic strokes.
+fn comparison() -> Result<()> {
     process::run(&mut process::cargo(&["build", "--release", "--package", "fairpath"]))?;
     let browser = tools::chromium()?;
     let page = tree::scratch("pictures")?.join("comparison.html");
