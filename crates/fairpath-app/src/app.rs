@@ -154,6 +154,12 @@ impl App {
         self.pace.report()
     }
 
+    /// Each time from the last point of a stroke to its curve in the picture, milliseconds.
+    #[must_use]
+    pub fn curve_times_ms(&self) -> &[f64] {
+        self.pace.curves_ms()
+    }
+
     /// Begins to time anew.
     pub fn forget_pace(&mut self) {
         self.pace = Pace::default();

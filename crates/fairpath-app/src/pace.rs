@@ -68,6 +68,11 @@ impl Pace {
         }
     }
 
+    /// Each time from the last point of a stroke to its curve in the picture.
+    pub(crate) fn curves_ms(&self) -> &[f64] {
+        &self.curves_ms
+    }
+
     /// The times so far.
     pub(crate) fn report(&self) -> PaceReport {
         PaceReport { curves: times(&self.curves_ms), frames: times(&self.frames_ms) }
@@ -77,6 +82,14 @@ impl Pace {
 fn note(list: &mut Vec<f64>, since: Instant) {
     if list.len() < MOST {
         list.push(since.elapsed().as_secs_f64() * 1e3);
+    }
+}
+
+impl Times {
+    /// What matters of a list of times, milliseconds.
+    #[must_use]
+    pub fn of(list: &[f64]) -> Self {
+        times(list)
     }
 }
 
