@@ -4,7 +4,7 @@
 //!     cargo run --release -p fairpath-app --example pace -- FILE…
 
 use eframe::egui::{Context, Event, Modifiers, PointerButton, Pos2, RawInput, Rect, Vec2, pos2, vec2};
-use fairpath_app::{App, NoStore};
+use fairpath_app::{App, NoStore, Times};
 use fairpath_io::{ReadOptions, read_strokes};
 use fairpath_sketch::Drawing;
 use std::path::Path;
@@ -21,6 +21,7 @@ const POINTS_A_FRAME: usize = 4;
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let ctx = Context::default();
     let mut app = App::with_thread(&ctx, Box::new(NoStore));
+    let mut all = Vec::new();
     let mut window = Window { ctx, time: 0.0, size: WINDOW };
     for path in std::env::args().skip(1) {
         let file = read_strokes(Path::new(&path), &ReadOptions::default())?;
@@ -45,19 +46,20 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         }
         let report = app.pace();
         println!("{path}: {drawn} of {} strokes became curves; the others are taps", file.strokes.len());
-        for (what, times) in
-            [("from last point to curve", report.curves), ("work for a picture while drawing", report.frames)]
-        {
-            println!(
-                "    {what:<34} {:>6} times, median {:.2} ms, 99 of 100 within {:.2} ms, longest {:.2} ms",
-                times.count, times.median, times.p99, times.longest
-            );
-        }
+        show("from last point to curve", report.curves);
+        show("work for a picture while drawing", report.frames);
         all.extend(app.curve_times_ms());
         app.forget_pace();
     }
-    print("all, from last point to curve", Times::of(&all));
+    show("all, from last point to curve", Times::of(&all));
     Ok(())
+}
+
+fn show(what: &str, times: Times) {
+    let Times { count, median, p99, longest } = times;
+    println!(
+        "    {what:<34} {count:>6} times, median {median:.2} ms, 99 of 100 within {p99:.2} ms, longest {longest:.2} ms"
+    );
 }
 
 /// The strokes of a file where the window is.
