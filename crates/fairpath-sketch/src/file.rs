@@ -7,7 +7,7 @@ use crate::background::Background;
 use crate::curve::{Curve, CurveId, Pin};
 use crate::drawing::Drawing;
 use crate::neatening::Neatening;
-use fairpath_fit::{Stroke, TemplateSet, measure};
+use fairpath_fit::{Stroke, TemplateSet, Warning, measure};
 use fairpath_io::{
     Error as IoError, ReadOptions, SplineEntry, SplineFile, SplineFormat, SplineReport, StrokeFile, StrokeFormat, Unit,
     WriteOptions, YAxis, encode_splines, encode_strokes, read_splines_from, read_strokes_from,
@@ -180,15 +180,16 @@ pub fn decode_drawing(bytes: &[u8], name: &str) -> Result<Drawing, DrawingError>
     Ok(drawing)
 }
 
-/// The curves of a file of strokes, splines or of a whole drawing, to be added to a drawing, by the file's content. Strokes are to be fitted as `neatening`
-/// says; splines come as they are.
+/// The curves of a file of strokes, splines or of a whole drawing, to be added to a drawing, by the file's content, and what its reader had to say or could
+/// not use, such as strokes that are dots. Strokes are to be fitted as `neatening` says; splines come as they are. Numbers are taken as they stand: a file's
+/// unit tells the size of its pixels only.
 ///
 /// # Errors
 /// When the file is none of these, or faulty.
-pub fn import(bytes: &[u8], name: &str, neatening: &Neatening) -> Result<Vec<Curve>, DrawingError> {
+pub fn import(bytes: &[u8], name: &str, neatening: &Neatening) -> Result<(Vec<Curve>, Vec<Warning>), DrawingError> {
     if is_drawing(bytes) {
         let drawing = decode_drawing(bytes, name)?;
-        return Ok(drawing.curves().iter().map(|curve| (**curve).clone()).collect());
+        return Ok((drawing.curves().iter().map(|curve| (**curve).clone()).collect(), Vec::new()));
     }
     let options = ReadOptions::default();
     let path = std::path::Path::new(name);
@@ -197,13 +198,25 @@ pub fn import(bytes: &[u8], name: &str, neatening: &Neatening) -> Result<Vec<Cur
         && !file.splines.is_empty()
     {
         let size = file.unit.pixel_size();
-        return Ok(file.splines.into_iter().map(|entry| curve_of(entry, neatening, size)).collect());
+        let mut told = file.warnings;
+        told.extend(file.failures.into_iter().map(|failure| left_out(&failure.name, failure.code, &failure.text)));
+        return Ok((file.splines.into_iter().map(|entry| curve_of(entry, neatening, size)).collect(), told));
     }
     let file = read_strokes_from(bytes, name, StrokeFormat::from_path(path), &options)?;
     let neatening = Neatening { pixel_size: file.unit.pixel_size(), ..neatening.clone() };
-    // A dot is no curve; the others are.
-    let curves = file.strokes.into_iter().filter_map(|stroke| Curve::drawn(CurveId(0), stroke, neatening.clone()).ok());
-    Ok(curves.collect())
+    let (mut curves, mut told) = (Vec::new(), file.warnings);
+    for stroke in file.strokes {
+        let name = stroke.name.clone();
+        match Curve::drawn(CurveId(0), stroke, neatening.clone()) {
+            Ok(curve) => curves.push(curve),
+            Err(error) => told.push(left_out(&name, error.code().into(), &error.to_string())),
+        }
+    }
+    Ok((curves, told))
+}
+
+fn left_out(name: &str, code: String, why: &str) -> Warning {
+    Warning { code, text: format!("{name:?} is left out: {why}") }
 }
 
 /// Distance of the points that stand for the stroke of a spline that came without one, px.
@@ -273,6 +286,14 @@ mod tests {
             let error = decode_drawing(&bytes[..end], "half.json").unwrap_err().to_string();
             assert!(error.starts_with("half.json"), "{error}");
         }
+    }
+
+    #[test]
+    fn a_stroke_that_is_left_out_of_an_import_is_told_of() {
+        let text = b"0 0\n30 1\n60 0\n\n5 5\n5 5\n";
+        let (curves, told) = import(text, "two.txt", &Neatening::default()).unwrap();
+        assert_eq!(curves.len(), 1);
+        assert!(told.iter().any(|warning| warning.code == "too-short"), "{told:?}");
     }
 
     #[test]
