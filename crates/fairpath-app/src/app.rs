@@ -165,21 +165,6 @@ impl App {
         self.pace = Pace::default();
     }
 
-    /// Everything about the drawing and the work on it as JSON, for programs that drive the application: the members `settled`, `unsaved`, `pace` and
-    /// `drawing`, which is a file of it.
-    #[must_use]
-    pub fn state_json(&self) -> String {
-        let drawing = fairpath_sketch::encode_drawing(self.session.drawing()).unwrap_or_default();
-        let drawing: serde_json::Value = serde_json::from_slice(&drawing).unwrap_or_default();
-        serde_json::json!({
-            "settled": self.is_settled(),
-            "unsaved": self.is_unsaved(),
-            "pace": self.pace(),
-            "drawing": drawing,
-        })
-        .to_string()
-    }
-
     /// Makes a picture without a window, up to the triangles that a graphics device would be given.
     pub fn frame_without_window(&mut self, ctx: &Context, input: egui::RawInput) {
         let output = ctx.run_ui(input, |ui| self.frame(ui));

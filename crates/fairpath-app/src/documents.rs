@@ -18,27 +18,18 @@ const KEEP_AFTER_S: f64 = 5.0;
 pub(crate) struct Document {
     /// What its file is called.
     pub(crate) name: String,
-    /// The version of the history that is in its file.
-    saved: u64,
     /// The version that is kept against crashes, and since when a newer one waits.
     kept: u64,
     waiting: Option<f64>,
-    /// The version that is about to be saved.
-    saving: u64,
 }
 
 impl Default for Document {
     fn default() -> Self {
-        Self { name: "drawing".into(), saved: 0, kept: 0, waiting: None, saving: 0 }
+        Self { name: "drawing".into(), kept: 0, waiting: None }
     }
 }
 
 impl App {
-    /// Whether there is something that is in no file yet.
-    pub(crate) fn is_unsaved(&self) -> bool {
-        self.document.saved != self.session.history().version() && self.session.history().undoable().is_some()
-    }
-
     /// Does what became of dialogs, and takes files that were dropped on the window.
     pub(crate) fn read_files(&mut self, ctx: &Context) {
         let dropped = ctx.input(|i| i.raw.dropped_files.clone());
@@ -49,10 +40,7 @@ impl App {
         for event in self.files.events() {
             match event {
                 FileEvent::Chosen { purpose, name, bytes } => self.take_file(purpose, &name, &bytes),
-                FileEvent::Saved { name } => {
-                    self.document.saved = self.document.saving;
-                    self.panels.say(format!("Saved {name}."));
-                }
+                FileEvent::Saved { name } => self.panels.say(format!("Saved {name}.")),
                 FileEvent::Failed { text } => self.panels.say(text),
             }
         }
@@ -87,11 +75,14 @@ impl App {
                 self.open(drawing, name);
             }),
             Purpose::Open | Purpose::Import => {
-                import(bytes, name, self.session.neatening()).map_err(told).map(|curves| {
-                    let count = curves.len();
+                import(bytes, name, self.session.neatening()).map_err(told).map(|(curves, left_out)| {
+                    let mut told = format!("{} curves from {name}.", curves.len());
+                    if let Some(first) = left_out.first() {
+                        told += &format!(" Not all of it: {}", first.text);
+                    }
                     self.session.add("Import", curves);
                     self.fit_view();
-                    self.panels.say(format!("{count} curves from {name}."));
+                    self.panels.say(told);
                 })
             }
         };
@@ -111,7 +102,6 @@ impl App {
     fn open(&mut self, drawing: Drawing, name: &str) {
         self.open_drawing(drawing);
         self.document = Document { name: stem(name).into(), ..Document::default() };
-        self.document.saved = self.session.history().version();
     }
 
     fn trace(&mut self, name: &str, bytes: &[u8]) -> Result<(), String> {
@@ -132,7 +122,6 @@ impl App {
 
     /// Saves the drawing where a person chooses.
     pub(crate) fn save(&mut self, ctx: &Context) {
-        self.document.saving = self.session.history().version();
         match encode_drawing(self.session.drawing()) {
             Ok(bytes) => self.files.save(ctx, &format!("{}.json", self.document.name), bytes),
             Err(error) => self.panels.say(error.to_string()),
@@ -199,7 +188,11 @@ impl App {
                     self.panels.say("Your last drawing is here again; undo leads back to an empty one.");
                 }
                 Ok(_) => {}
-                Err(error) => self.panels.say(error.to_string()),
+                Err(error) => {
+                    // The next change is kept in its place.
+                    self.store.set_aside(bytes);
+                    self.panels.say(format!("{error}. It is set aside."));
+                }
             }
         }
         if let Some(text) = self.store.trouble() {

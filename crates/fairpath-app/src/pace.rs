@@ -75,7 +75,7 @@ impl Pace {
 
     /// The times so far.
     pub(crate) fn report(&self) -> PaceReport {
-        PaceReport { curves: times(&self.curves_ms), frames: times(&self.frames_ms) }
+        PaceReport { curves: Times::of(&self.curves_ms), frames: Times::of(&self.frames_ms) }
     }
 }
 
@@ -89,19 +89,10 @@ impl Times {
     /// What matters of a list of times, milliseconds.
     #[must_use]
     pub fn of(list: &[f64]) -> Self {
-        times(list)
-    }
-}
-
-fn times(list: &[f64]) -> Times {
-    let mut sorted = list.to_vec();
-    sorted.sort_by(f64::total_cmp);
-    let at =
-        |share: f64| sorted.get(((sorted.len() as f64 * share) as usize).min(sorted.len().saturating_sub(1))).copied();
-    Times {
-        count: sorted.len(),
-        median: at(0.5).unwrap_or(0.0),
-        p99: at(0.99).unwrap_or(0.0),
-        longest: sorted.last().copied().unwrap_or(0.0),
+        let mut sorted = list.to_vec();
+        sorted.sort_by(f64::total_cmp);
+        let last = sorted.len().saturating_sub(1);
+        let at = |share: f64| sorted.get(((sorted.len() as f64 * share) as usize).min(last)).copied().unwrap_or(0.0);
+        Self { count: sorted.len(), median: at(0.5), p99: at(0.99), longest: at(1.0) }
     }
 }

@@ -14,6 +14,9 @@ pub trait Store {
     /// What an earlier run kept, once it has come.
     fn kept(&mut self) -> Option<Vec<u8>>;
 
+    /// Keeps what an earlier run kept and nobody can read beside what is kept from now on, for whoever can mend it.
+    fn set_aside(&mut self, damaged: Vec<u8>);
+
     /// What went wrong since the last call.
     fn trouble(&mut self) -> Option<String>;
 }
@@ -30,6 +33,8 @@ impl Store for NoStore {
     fn kept(&mut self) -> Option<Vec<u8>> {
         None
     }
+
+    fn set_aside(&mut self, _damaged: Vec<u8>) {}
 
     fn trouble(&mut self) -> Option<String> {
         None
@@ -98,6 +103,13 @@ impl Store for FileStore {
 
     fn kept(&mut self) -> Option<Vec<u8>> {
         self.kept.take()
+    }
+
+    fn set_aside(&mut self, damaged: Vec<u8>) {
+        if let Err(error) = fairpath_io::write_whole(&self.path.with_extension("damaged.json"), &damaged) {
+            // The other end lives as long as this does.
+            let _ = self.outbox.send(error.to_string());
+        }
     }
 
     fn trouble(&mut self) -> Option<String> {

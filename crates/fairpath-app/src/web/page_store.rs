@@ -13,6 +13,9 @@ use crate::store::Store;
 /// The key of the drawing.
 const DRAWING: &str = "drawing";
 
+/// The key of a drawing that could not be read.
+const DAMAGED: &str = "drawing-damaged";
+
 /// The browser's database as the application's store.
 pub struct PageStore {
     ctx: egui::Context,
@@ -61,6 +64,11 @@ impl Store for PageStore {
 
     fn kept(&mut self) -> Option<Vec<u8>> {
         mem::take(&mut self.heard.borrow_mut().kept)
+    }
+
+    fn set_aside(&mut self, damaged: Vec<u8>) {
+        let text = String::from_utf8_lossy(&damaged).into_owned();
+        self.then(async move { storage::save(DAMAGED, &text).await.map(|()| None) });
     }
 
     fn trouble(&mut self) -> Option<String> {
