@@ -1,6 +1,6 @@
 //! The application: what it holds, and the order in which a frame goes.
 
-use crate::canvas::{Canvas, Work};
+use crate::canvas::{Canvas, Work, suitable_comb};
 use crate::documents::Document;
 use crate::files::Files;
 use crate::pace::{Pace, PaceReport};
@@ -12,6 +12,7 @@ use crate::worker::Worker;
 use crate::{example, theme};
 use eframe::egui::{self, CentralPanel, Context, Frame, Ui};
 use fairpath_curve::Point;
+use fairpath_io::Unit;
 use fairpath_sketch::{Answer, Curve, CurveId, Drawing, Neatening, Session};
 
 /// What a press on the canvas does.
@@ -28,6 +29,8 @@ pub(crate) enum Tool {
     Cut,
     /// Makes corners and smooths them.
     Corner,
+    /// Moves the picture to trace over.
+    Picture,
 }
 
 /// In which colours curves are drawn.
@@ -48,8 +51,10 @@ pub(crate) struct Shown {
     pub(crate) ghost: bool,
     pub(crate) grid: bool,
     pub(crate) comb: bool,
-    /// Length of a comb's tooth on the screen for a curvature of 1 per point, points squared.
+    /// Length of a comb's tooth for a curvature of one, in the drawing's unit squared.
     pub(crate) comb_scale: f64,
+    /// Whether a hand chose that.
+    pub(crate) comb_by_hand: bool,
     /// The curvature along the selected curve, under the canvas.
     pub(crate) plot: bool,
     /// The figures of the selected curve, beside the canvas.
@@ -68,6 +73,7 @@ impl Default for Shown {
             grid: true,
             comb: false,
             comb_scale: 1500.0,
+            comb_by_hand: false,
             plot: false,
             inspector: true,
             templates: true,
@@ -179,6 +185,8 @@ impl App {
         self.take_answers();
         self.read_files(ui.ctx());
         self.keep(ui.ctx());
+        self.set_title(ui.ctx());
+        theme::suit_fingers(ui);
         panels::shortcuts::read(self, ui);
         panels::plot::show(self, ui);
         CentralPanel::default().frame(Frame::NONE).show(ui, |ui| {
@@ -223,8 +231,31 @@ impl App {
     pub(crate) fn fit_view(&mut self) {
         let boxes = self.session.drawing().curves().iter().map(|curve| curve.spline.bounding_box());
         if let Some(all) = boxes.reduce(|a, b| a.union(b)) {
-            self.view.fit(Point::new(all.x0, all.y0), Point::new(all.x1, all.y1));
+            self.view.fit(Point::new(all.x0, all.y0), Point::new(all.x1, all.y1), panels::room(self));
         }
+        self.fit_combs();
+    }
+
+    /// Makes the teeth of combs as long as suits what is drawn and how near it is seen, unless a hand has chosen that.
+    pub(crate) fn fit_combs(&mut self) {
+        if !self.shown.comb_by_hand {
+            let curves = self.session.drawing().curves();
+            self.shown.comb_scale = suitable_comb(curves.iter().map(|curve| &curve.spline), &self.view);
+        }
+    }
+
+    /// Measures the drawing in another unit; what is seen stays.
+    pub(crate) fn measure_in(&mut self, unit: Unit) {
+        self.canvas.cancel(&mut self.session);
+        let factor = self.session.measure_in(unit);
+        self.view.rescale(factor);
+        self.shown.comb_scale *= factor * factor;
+    }
+
+    /// Neatens with a set of French curves from now on.
+    pub(crate) fn choose_templates(&mut self, set: String) {
+        let wish = Neatening { templates: set, ..self.session.neatening().clone() };
+        self.session.set_neatening(wish);
     }
 
     fn take_answers(&mut self) {

@@ -1,14 +1,10 @@
-//! The drawing as a document: opened, saved, imported, exported, kept against crashes.
+//! The drawing as a document: opened, saved, kept against crashes.
 
 use crate::app::App;
-use crate::files::{FileEvent, Purpose};
-use eframe::egui::Context;
-use fairpath_fit::Warning;
-use fairpath_io::{SplineFormat, WriteOptions, encode_splines};
-use fairpath_sketch::{
-    Background, Drawing, DrawingError, decode_drawing, encode_drawing, import, is_drawing, splines_of, strokes_of,
-};
-use std::sync::Arc;
+use crate::files::{SavedDocument, Saving};
+use eframe::egui::{Context, ViewportCommand};
+use fairpath_sketch::{Drawing, decode_drawing, encode_drawing};
+use std::path::PathBuf;
 
 /// A change is kept so long after it was made, seconds of the interface's clock.
 const KEEP_AFTER_S: f64 = 5.0;
@@ -18,6 +14,12 @@ const KEEP_AFTER_S: f64 = 5.0;
 pub(crate) struct Document {
     /// What its file is called.
     pub(crate) name: String,
+    /// Where its file lies, once it has one; a browser does not tell.
+    path: Option<PathBuf>,
+    /// The version that its file holds.
+    saved: u64,
+    /// What the window was told last.
+    title: String,
     /// The version that is kept against crashes, and since when a newer one waits.
     kept: u64,
     waiting: Option<f64>,
@@ -25,72 +27,25 @@ pub(crate) struct Document {
 
 impl Default for Document {
     fn default() -> Self {
-        Self { name: "drawing".into(), kept: 0, waiting: None }
+        Self { name: "drawing".into(), path: None, saved: 0, title: String::new(), kept: 0, waiting: None }
+    }
+}
+
+impl Document {
+    /// Takes note that its file was written.
+    pub(crate) fn saved(&mut self, name: &str, saved: SavedDocument) {
+        self.name = stem(name).into();
+        self.path = saved.path;
+        self.saved = saved.version;
+    }
+
+    /// Whether a drawing of that version is not in its file.
+    fn is_changed(&self, version: u64) -> bool {
+        version != self.saved
     }
 }
 
 impl App {
-    /// Does what became of dialogs, and takes files that were dropped on the window.
-    pub(crate) fn read_files(&mut self, ctx: &Context) {
-        let dropped = ctx.input(|i| i.raw.dropped_files.clone());
-        for file in dropped {
-            let name = file.path().file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
-            self.take_dropped(ctx, name, file);
-        }
-        for event in self.files.events() {
-            match event {
-                FileEvent::Chosen { purpose, name, bytes } => self.take_file(purpose, &name, &bytes),
-                FileEvent::Saved { name } => self.panels.say(format!("Saved {name}.")),
-                FileEvent::Failed { text } => self.panels.say(text),
-            }
-        }
-    }
-
-    #[cfg(not(target_arch = "wasm32"))]
-    fn take_dropped(&mut self, _ctx: &Context, name: String, file: eframe::egui::DroppedFileHandle) {
-        self.files.dropped(match file.bytes() {
-            Ok(bytes) => FileEvent::Chosen { purpose: Purpose::Import, name, bytes },
-            Err(error) => FileEvent::Failed { text: format!("{name}: cannot be read: {error}") },
-        });
-    }
-
-    #[cfg(target_arch = "wasm32")]
-    fn take_dropped(&mut self, ctx: &Context, name: String, file: eframe::egui::DroppedFileHandle) {
-        let (outbox, ctx) = (self.files.outbox(), ctx.clone());
-        wasm_bindgen_futures::spawn_local(async move {
-            let _ = outbox.send(match file.bytes_async().await {
-                Ok(bytes) => FileEvent::Chosen { purpose: Purpose::Import, name, bytes },
-                Err(error) => FileEvent::Failed { text: format!("{name}: cannot be read: {error}") },
-            });
-            ctx.request_repaint();
-        });
-    }
-
-    /// Takes a file for what it was chosen for. A picture is always traced over.
-    pub(crate) fn take_file(&mut self, purpose: Purpose, name: &str, bytes: &[u8]) {
-        let taken = match purpose {
-            _ if image::guess_format(bytes).is_ok() => self.trace(name, bytes),
-            Purpose::Background => Err(format!("{name}: no picture that can be shown; choose a PNG, JPEG or WebP")),
-            Purpose::Open if is_drawing(bytes) => decode_drawing(bytes, name).map_err(told).map(|drawing| {
-                self.open(drawing, name);
-            }),
-            Purpose::Open | Purpose::Import => {
-                import(bytes, name, self.session.neatening()).map_err(told).map(|(curves, left_out)| {
-                    let mut told = format!("{} curves from {name}.", curves.len());
-                    if let Some(first) = left_out.first() {
-                        told += &format!(" Not all of it: {}", first.text);
-                    }
-                    self.session.add("Import", curves);
-                    self.fit_view();
-                    self.panels.say(told);
-                })
-            }
-        };
-        if let Err(text) = taken {
-            self.panels.say(text);
-        }
-    }
-
     /// Goes on with another drawing, which cannot be undone; an empty one is seen with a point of the screen to a unit.
     pub fn open_drawing(&mut self, drawing: Drawing) {
         self.canvas.cancel(&mut self.session);
@@ -99,74 +54,40 @@ impl App {
         self.fit_view();
     }
 
-    fn open(&mut self, drawing: Drawing, name: &str) {
+    /// Goes on with the drawing of a file.
+    pub(crate) fn open(&mut self, drawing: Drawing, name: &str, path: Option<PathBuf>) {
         self.open_drawing(drawing);
-        self.document = Document { name: stem(name).into(), ..Document::default() };
+        let saved = self.session.history().version();
+        self.document = Document { name: stem(name).into(), path, saved, ..Document::default() };
     }
 
-    fn trace(&mut self, name: &str, bytes: &[u8]) -> Result<(), String> {
-        let size = image::ImageReader::new(std::io::Cursor::new(bytes)).with_guessed_format();
-        let size = size
-            .map_err(|error| error.to_string())
-            .and_then(|reader| reader.into_dimensions().map_err(|error| error.to_string()));
-        let (width, height) = size.map_err(|error| format!("{name}: cannot be shown: {error}"))?;
-        let [min, max] = self.view.seen();
-        let room = (max - min) * 0.8;
-        let scale = (room.x / f64::from(width)).min(room.y / f64::from(height));
-        let half = fairpath_curve::Vec2::new(f64::from(width), f64::from(height)) * (0.5 * scale);
-        let at = min.midpoint(max) - half;
-        let background = Background { name: name.into(), image: bytes.to_vec(), at, width: 2.0 * half.x, opacity: 0.5 };
-        self.session.set_background(Some(Arc::new(background)));
-        Ok(())
+    /// Saves the drawing in its file, or if it has none yet, where a person chooses.
+    pub(crate) fn save(&mut self, ctx: &Context) {
+        self.save_to(ctx, self.document.path.clone());
     }
 
     /// Saves the drawing where a person chooses.
-    pub(crate) fn save(&mut self, ctx: &Context) {
+    pub(crate) fn save_as(&mut self, ctx: &Context) {
+        self.save_to(ctx, None);
+    }
+
+    fn save_to(&mut self, ctx: &Context, path: Option<PathBuf>) {
+        let version = self.session.history().version();
         match encode_drawing(self.session.drawing()) {
-            Ok(bytes) => self.files.save(ctx, &format!("{}.json", self.document.name), bytes),
+            Ok(bytes) => {
+                self.files.save(ctx, &format!("{}.json", self.document.name), bytes, Saving::Document { path, version })
+            }
             Err(error) => self.panels.say(error.to_string()),
         }
     }
 
-    /// Exports the curves in a format where a person chooses.
-    pub(crate) fn export(&mut self, ctx: &Context, format: SplineFormat) {
-        match self.exported(format) {
-            Ok((bytes, warnings)) => {
-                if let Some(warning) = warnings.first() {
-                    self.panels.say(warning.text.clone());
-                }
-                let name = format!("{}.{}", self.document.name, format.extension());
-                self.files.save(ctx, &name, bytes);
-            }
-            Err(text) => self.panels.say(text),
-        }
-    }
-
-    /// The selected curves, or if there are none all, in a format.
-    pub(crate) fn exported(&self, format: SplineFormat) -> Result<(Vec<u8>, Vec<Warning>), String> {
-        let mut file = splines_of(self.session.drawing());
-        let selected: Vec<&str> = self
-            .session
-            .selection()
-            .iter()
-            .filter_map(|&id| Some(self.session.drawing().curve(id)?.name.as_str()))
-            .collect();
-        if !selected.is_empty() {
-            file.splines.retain(|entry| selected.contains(&entry.name.as_str()));
-        }
-        let strokes = strokes_of(self.session.drawing());
-        let encoded = encode_splines(&file, format, Some(&strokes), &WriteOptions::default());
-        encoded.map(|encoded| (encoded.bytes, encoded.warnings)).map_err(|error| error.to_string())
-    }
-
-    /// Copies the selected curves, or all, as SVG.
-    pub(crate) fn copy_svg(&mut self, ctx: &Context) {
-        match self.exported(SplineFormat::Svg) {
-            Ok((bytes, _)) => {
-                ctx.copy_text(String::from_utf8_lossy(&bytes).into_owned());
-                self.panels.say("Copied as SVG.");
-            }
-            Err(text) => self.panels.say(text),
+    /// Tells the window what it shows.
+    pub(crate) fn set_title(&mut self, ctx: &Context) {
+        let changed = self.document.is_changed(self.session.history().version());
+        let title = format!("{}{} – Fairpath", self.document.name, if changed { "*" } else { "" });
+        if title != self.document.title {
+            ctx.send_viewport_cmd(ViewportCommand::Title(title.clone()));
+            self.document.title = title;
         }
     }
 
@@ -219,18 +140,14 @@ impl App {
     pub fn keep_now(&mut self) {
         if self.is_to_be_kept() {
             let drawing = self.session.drawing().clone();
-            self.store.keep(Box::new(move || encode_drawing(&drawing).map_err(told)));
+            self.store.keep(Box::new(move || encode_drawing(&drawing).map_err(|error| error.to_string())));
             self.document.kept = self.session.history().version();
             self.document.waiting = None;
         }
     }
 }
 
-fn told(error: DrawingError) -> String {
-    error.to_string()
-}
-
 /// A file's name without its extension.
-fn stem(name: &str) -> &str {
+pub(crate) fn stem(name: &str) -> &str {
     name.rsplit_once('.').map_or(name, |(stem, _)| stem)
 }

@@ -2,7 +2,7 @@
 
 use eframe::egui::{
     Color32, Context, CornerRadius, FontDefinitions, FontFamily, FontId, Frame, Margin, Shadow, Stroke, Style,
-    TextStyle, Theme, Visuals, style::WidgetVisuals, vec2,
+    TextStyle, Theme, Ui, Visuals, style::WidgetVisuals, vec2,
 };
 
 use crate::icons;
@@ -93,6 +93,19 @@ pub(crate) fn install(ctx: &Context) {
     ctx.options_mut(|options| options.fallback_theme = Theme::Light);
     for theme in [Theme::Light, Theme::Dark] {
         ctx.set_style_of(theme, style(theme));
+    }
+}
+
+/// The least size of what is pressed by a finger, points.
+const FINGER: f32 = 40.0;
+
+/// Makes what can be pressed as large as fingers need it, once the screen was touched.
+pub(crate) fn suit_fingers(ui: &Ui) {
+    if ui.spacing().interact_size.y < FINGER && ui.input(|i| i.has_touch_screen()) {
+        ui.ctx().all_styles_mut(|style| {
+            style.spacing.interact_size = vec2(FINGER, FINGER);
+            style.spacing.slider_rail_height *= 1.5;
+        });
     }
 }
 

@@ -85,14 +85,20 @@ impl View {
         self.centre += fixed - self.drawing_at(pos);
     }
 
-    /// Shows all of a box of the drawing with some room around it.
-    pub(crate) fn fit(&mut self, min: Point, max: Point) {
-        let room = 0.84;
+    /// Shows all of a box of the drawing in a part of the canvas, with some air around it.
+    pub(crate) fn fit(&mut self, min: Point, max: Point, room: Rect) {
+        let air = 0.92;
         let size = (max - min).hypot().max(1e-9);
-        let scale = |extent: f64, canvas: f32| f64::from(canvas) * room / extent.max(1e-3 * size);
-        self.zoom = scale(max.x - min.x, self.canvas.width()).min(scale(max.y - min.y, self.canvas.height()));
-        self.zoom = self.zoom.clamp(*ZOOMS.start(), 20.0_f64.max(*ZOOMS.start()));
-        self.centre = min.midpoint(max);
+        let scale = |extent: f64, room: f32| f64::from(room.max(1.0)) * air / extent.max(1e-3 * size);
+        self.zoom = scale(max.x - min.x, room.width()).min(scale(max.y - min.y, room.height()));
+        self.zoom = self.zoom.clamp(*ZOOMS.start(), *ZOOMS.end());
+        self.centre = min.midpoint(max) - self.vector(room.center() - self.canvas.center());
+    }
+
+    /// Numbers of the drawing are so many times what they were; what is seen stays.
+    pub(crate) fn rescale(&mut self, factor: f64) {
+        self.zoom = (self.zoom / factor).clamp(*ZOOMS.start(), *ZOOMS.end());
+        self.centre = (self.centre.to_vec2() * factor).to_point();
     }
 
     /// The part of the drawing that is seen, as two corners.

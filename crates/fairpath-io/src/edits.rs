@@ -9,6 +9,7 @@ use fairpath_fit::{CurveEnd, Extension};
 use schemars::JsonSchema;
 use serde::{Deserialize, Deserializer, Serialize};
 use serde_json::Value;
+use std::io::Read;
 use std::path::Path;
 
 /// The word in the file's `format`.
@@ -169,9 +170,19 @@ impl Edit {
 /// # Errors
 /// When the file cannot be opened, goes beyond the limits or breaks the format's rules; every edit with a problem is named.
 pub fn read_edits(path: &Path, options: &ReadOptions) -> Result<Vec<Edit>, Error> {
-    let name = label(path);
-    let bytes = read_all(open(path)?, &options.limits).map_err(|fault| fault.in_file(&name))?;
-    text(&bytes).and_then(|text| parse(text, &options.limits)).map_err(|fault| fault.in_file(&name))
+    read_edits_from(open(path)?, &label(path), options)
+}
+
+/// The edits that `reader` gives; `name` stands for the file in messages.
+///
+/// # Errors
+/// As [`read_edits`].
+pub fn read_edits_from(reader: impl Read, name: &str, options: &ReadOptions) -> Result<Vec<Edit>, Error> {
+    let parsed = || {
+        let bytes = read_all(reader, &options.limits)?;
+        text(&bytes).and_then(|text| parse(text, &options.limits))
+    };
+    parsed().map_err(|fault| fault.in_file(name))
 }
 
 /// A file before its edits are looked at one by one.

@@ -10,7 +10,7 @@
 //! | the sets of French curves that come along | [`shipped_templates`] |
 //! | draw splines, a contact sheet, the steps of a fit, French curves and their pieces | [`picture`] |
 //! | compare methods on the same strokes, as a page of HTML | [`Comparison`] |
-//! | read edits of splines (JSON) | [`read_edits`] |
+//! | read edits of splines (JSON) | [`read_edits`], [`read_edits_from`] |
 //! | write surfaces (glTF, OBJ, PNG) | [`write_surfaces`], [`encode_surfaces`] |
 //! | convert | read splines and write them |
 //! | write any file whole or not at all | [`write_whole`] |
@@ -74,7 +74,7 @@ mod xml;
 
 pub use atomic::write_whole;
 pub use comparison::{ComparedMethod, Comparison, MethodSummary};
-pub use edits::{Edit, Through, read_edits};
+pub use edits::{Edit, Through, read_edits, read_edits_from};
 pub use error::Error;
 pub use limits::{Limits, ReadOptions};
 pub use schema::{edits_schema, spline_schema, strokes_schema, templates_schema};

@@ -3,10 +3,14 @@
 use crate::carry::carried;
 use crate::curve::{Curve, CurveId};
 use crate::desk::Slot;
+use crate::edit_list::edited;
+use crate::file::splines_of;
 use crate::job::Trouble;
 use crate::session::Session;
 use fairpath_curve::{Continuity, Spline};
 use fairpath_fit::{CurveEnd, Extension, close, cut, extend, join, make_corner, smooth_corner};
+use fairpath_io::Edit;
+use std::collections::BTreeSet;
 
 impl Session {
     /// Cuts a curve at a station: an open one in two, a closed one open.
@@ -97,6 +101,50 @@ impl Session {
             Ok(_) => {}
             Err(error) => self.report(error),
         }
+    }
+
+    /// Makes a list of edits on the curves, by their names, as one step; false if it cannot be made, of which [`take_trouble`](Self::take_trouble) tells.
+    pub fn make_edits(&mut self, edits: &[Edit]) -> bool {
+        let before = self.drawing().curves().to_vec();
+        let list = match edited(&splines_of(self.drawing()), edits) {
+            Ok(list) => list,
+            Err(error) => {
+                self.report(Trouble { code: "no-edit".into(), text: error.to_string() });
+                return false;
+            }
+        };
+        self.desk.clear();
+        self.corrections.clear();
+        self.history.act("Edits", |drawing| {
+            let mut first_of = BTreeSet::new();
+            let mut curves = Vec::with_capacity(list.origins.len());
+            for (entry, origins) in list.file.splines.into_iter().zip(&list.origins) {
+                let of = &before[origins[0]];
+                let mut curve = if entry.spline == of.spline {
+                    (**of).clone()
+                } else {
+                    let sources: Vec<_> = origins.iter().map(|&i| before[i].source()).collect();
+                    let stroke = carried(&sources, &entry.spline, &[], of.neatening.pixel_size);
+                    of.reshaped(entry.spline, stroke)
+                };
+                // The first part of a curve that was cut is still that curve.
+                if !first_of.insert(origins[0]) {
+                    curve.id = drawing.new_id();
+                }
+                curve.name = entry.name;
+                curves.push(curve);
+            }
+            for curve in &before {
+                drawing.remove(curve.id);
+            }
+            for curve in curves {
+                drawing.put(curve);
+            }
+        });
+        let drawing = self.history.drawing();
+        self.selection.retain(|&id| drawing.curve(id).is_some());
+        self.want_all();
+        true
     }
 
     /// Makes a corner of a smooth place of a curve, or smooths the corner that is within `reach` of it.

@@ -173,7 +173,7 @@ fn held(free: Fitted, stroke: &Stroke, pins: &[Pin], pixel_size: f64) -> Fitted 
 pub(crate) const NOT_HELD: &str = "not-held";
 
 /// The figures of a curve that was changed after it was fitted; how it was found stays as told.
-fn measured(spline: &Spline, stroke: &Stroke, fit: &Report, pixel_size: f64) -> Report {
+pub(crate) fn measured(spline: &Spline, stroke: &Stroke, fit: &Report, pixel_size: f64) -> Report {
     let Report { max_deviation, rms_deviation, inflections, pieces, .. } = measure(spline, stroke, pixel_size);
     Report { max_deviation, rms_deviation, inflections, pieces, ..fit.clone() }
 }

@@ -1,7 +1,6 @@
 //! A person at work: deeds and answers of the worker come in, a drawing with its history, jobs for the worker and what is to be shown of the work in hand go
 //! out.
 
-use crate::background::Background;
 use crate::boxes::Boxes;
 use crate::corrections::Correction;
 use crate::curve::{Curve, CurveId, Pin};
@@ -9,7 +8,7 @@ use crate::desk::{Desk, Slot, Ticket, Wish};
 use crate::drawing::Drawing;
 use crate::hand::Hand;
 use crate::history::History;
-use crate::job::{Job, Trouble};
+use crate::job::{Job, NOT_HELD, Trouble, measured};
 use crate::neatening::Neatening;
 use fairpath_curve::{Point, Similarity, Spline, Vec2};
 use fairpath_fit::{Template, TemplateError, TemplateSet};
@@ -86,6 +85,21 @@ impl Session {
         if let Some(curve) = self.selected() {
             self.neatening = Neatening { pixel_size: 1.0, closed: self.neatening.closed, ..curve.neatening.clone() };
         }
+    }
+
+    /// Selects the curve after the selected one, or with `back` the one before, as they lie from the back to the front; from the last the first.
+    pub fn select_next(&mut self, back: bool) {
+        let curves = self.drawing().curves();
+        let n = curves.len();
+        let at = curves.iter().position(|curve| Some(curve.id) == self.selection.first().copied());
+        let next = match (at, back) {
+            (Some(i), false) => (i + 1) % n,
+            (Some(i), true) => (i + n - 1) % n,
+            (None, false) => 0,
+            (None, true) => n.saturating_sub(1),
+        };
+        let id = curves.get(next).map(|curve| curve.id);
+        self.select(id, false);
     }
 
     /// Selects every curve.
@@ -205,9 +219,16 @@ impl Session {
         }
     }
 
-    /// Puts a picture behind the drawing, or takes it away.
-    pub fn set_background(&mut self, background: Option<Arc<Background>>) {
-        self.history.act("Picture", |drawing| drawing.background = background);
+    /// Adds a set of French curves to the drawing's own, in the place of one that has its name, and gives that back.
+    pub fn add_templates(&mut self, set: TemplateSet) -> String {
+        let (name, set) = (set.name().to_owned(), Arc::new(set));
+        self.history.act("French curves", |drawing| {
+            match drawing.template_sets.iter_mut().find(|own| own.name() == name) {
+                Some(own) => *own = set,
+                None => drawing.template_sets.push(set),
+            }
+        });
+        name
     }
 
     /// Goes on with a drawing that was kept, from which undo leads back to an empty one.
@@ -338,6 +359,23 @@ impl Session {
         if !copies.is_empty() {
             self.add("Duplicate", copies);
         }
+    }
+
+    /// Lets a curve go from one of the places through which it is held.
+    pub fn unpin(&mut self, id: CurveId, index: usize) {
+        let Some(curve) = self.drawing().curve(id).filter(|curve| index < curve.pins.len()) else { return };
+        let mut curve = (**curve).clone();
+        curve.pins.remove(index);
+        match curve.unpinned.take_if(|_| curve.pins.is_empty()) {
+            Some(free) => {
+                curve.report = measured(&free, &curve.stroke, &curve.report, curve.neatening.pixel_size);
+                curve.spline = Arc::unwrap_or_clone(free);
+                curve.fitted = true;
+                curve.warnings.retain(|warning| warning.code != NOT_HELD);
+            }
+            None => curve.fitted = false,
+        }
+        self.change("Let go", id, |_| curve);
     }
 
     /// Holds a curve through a point; while the pin is dragged, under one step.

@@ -16,6 +16,12 @@ pub(crate) struct Backdrop {
 }
 
 impl Backdrop {
+    /// How high the picture is for its width; 1 if there is none that can be shown.
+    pub(crate) fn height_per_width(&self) -> f64 {
+        let texture = self.shown.as_ref().and_then(|(_, texture)| texture.as_ref());
+        texture.map_or(1.0, |texture| texture.size()[1] as f64 / texture.size()[0] as f64)
+    }
+
     /// Paints the picture.
     pub(crate) fn paint(
         &mut self,
@@ -35,8 +41,7 @@ impl Backdrop {
             self.shown = Some((Arc::clone(background), texture));
         }
         let Some((_, Some(texture))) = &self.shown else { return };
-        let [width, height] = texture.size();
-        let size = Vec2::new(background.width, background.width * height as f64 / width as f64);
+        let size = Vec2::new(background.width, background.width * self.height_per_width());
         let rect = Rect::from_two_pos(view.screen_of(background.at), view.screen_of(background.at + size));
         let all = Rect::from_min_max(Pos2::ZERO, pos2(1.0, 1.0));
         painter.image(texture.id(), rect, all, Color32::WHITE.gamma_multiply(background.opacity as f32));

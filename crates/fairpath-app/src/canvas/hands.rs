@@ -13,6 +13,12 @@ use std::collections::VecDeque;
 /// A pointer within this of a curve is on it, points.
 pub(crate) const GRASP: f64 = 8.0;
 
+/// Fingers are thicker than pointers.
+const FINGER: f64 = 2.0;
+
+/// What is pressed and moved by no more than this, points, is not moved.
+const STILL: f32 = 2.0;
+
 /// Reach of a corner that is made or smoothed, points.
 const CORNER_REACH: f64 = 30.0;
 
@@ -35,6 +41,8 @@ enum Gesture {
         id: CurveId,
         pin: Option<usize>,
         share: f64,
+        from: Pos2,
+        moved: bool,
     },
     Lengthen {
         id: CurveId,
@@ -42,6 +50,10 @@ enum Gesture {
     },
     /// Makes the teeth of the comb longer or shorter.
     Scale(Handle),
+    /// Moves the picture to trace over.
+    Picture {
+        last: Pos2,
+    },
 }
 
 /// Fingers on the glass.
@@ -141,14 +153,14 @@ impl Hands {
             return;
         }
         if let Some(handle) = Handle::of_selected(work.session, work.view, work.shown)
-            && f64::from(handle.place(work.shown.comb_scale).distance(pos)) <= GRASP
+            && f64::from(handle.place(work.shown.comb_scale).distance(pos)) <= self.grasp()
         {
             self.gesture = Gesture::Scale(handle);
             return;
         }
         let Work { session, view, tool, shown } = work;
         let place = view.drawing_at(pos);
-        let grasp = GRASP * view.pixel_size();
+        let grasp = self.grasp() * view.pixel_size();
         let near = session.nearest(place, grasp);
         match *tool {
             Tool::Draw => {
@@ -160,7 +172,7 @@ impl Hands {
                 }
             }
             Tool::Select => {
-                if let Some((id, end)) = grasped_end(session, view, pos) {
+                if let Some((id, end)) = grasped_end(session, view, pos, self.grasp()) {
                     self.gesture = Gesture::Lengthen { id, end };
                     return;
                 }
@@ -180,7 +192,7 @@ impl Hands {
                 let on = |pin: &Pin| (pin.point - place).hypot() <= grasp;
                 let pin = curve.pins.iter().position(on);
                 let share = pin.map_or(station / curve.spline.length(), |i| curve.pins[i].share);
-                self.gesture = Gesture::Pull { id, pin, share };
+                self.gesture = Gesture::Pull { id, pin, share, from: pos, moved: false };
             }
             Tool::Cut => {
                 if let Some((id, station)) = near {
@@ -193,7 +205,14 @@ impl Hands {
                     session.toggle_corner(id, station, CORNER_REACH * view.pixel_size());
                 }
             }
+            Tool::Picture => self.gesture = Gesture::Picture { last: pos },
         }
+    }
+
+    /// How near to a thing what is pressed means that thing, points.
+    fn grasp(&self) -> f64 {
+        // The finger that was lifted just now counts, too.
+        if self.fingers.most > 0 { FINGER * GRASP } else { GRASP }
     }
 
     /// Begins the stroke where the pen was set down, if it is known; what it did before belongs to no stroke.
@@ -226,15 +245,25 @@ impl Hands {
             Gesture::Draw => session.extend_stroke(view.drawing_at(pos), Some(time), self.force),
             Gesture::Move { last, moved } => {
                 let by = pos - *last;
-                if *moved || by.length() > 2.0 {
+                if *moved || by.length() > STILL {
                     session.move_selected(view.vector(by));
                     (*last, *moved) = (pos, true);
                 }
             }
-            Gesture::Pull { id, pin, share } => {
-                *pin = session.pin(*id, *pin, Pin { share: *share, point: view.drawing_at(pos) });
+            Gesture::Pull { id, pin, share, from, moved } => {
+                *moved |= pos.distance(*from) > STILL;
+                if *moved {
+                    *pin = session.pin(*id, *pin, Pin { share: *share, point: view.drawing_at(pos) });
+                }
             }
-            Gesture::Scale(handle) => shown.comb_scale = handle.scale_at(pos),
+            Gesture::Scale(handle) => {
+                shown.comb_scale = handle.scale_at(pos);
+                shown.comb_by_hand = true;
+            }
+            Gesture::Picture { last } => {
+                session.move_background(view.vector(pos - *last));
+                *last = pos;
+            }
             Gesture::None | Gesture::Pan | Gesture::Lengthen { .. } => {}
         }
     }
@@ -244,11 +273,13 @@ impl Hands {
         match self.gesture {
             Gesture::Draw => {
                 if let Some(tapped) = session.finish_stroke(fresh(modifiers)) {
-                    let near = session.nearest(tapped, GRASP * view.pixel_size());
+                    let near = session.nearest(tapped, self.grasp() * view.pixel_size());
                     session.select(near.map(|(id, _)| id), modifiers.shift);
                 }
             }
             Gesture::Lengthen { id, end } => lengthen(session, view, id, end, pos),
+            // A pin that is pressed and not moved lets the curve go.
+            Gesture::Pull { id, pin: Some(pin), moved: false, .. } => session.unpin(id, pin),
             _ => {}
         }
         session.end_gesture();
@@ -323,10 +354,10 @@ fn fresh(modifiers: Modifiers) -> bool {
 }
 
 /// The end of the selected curve that the pointer is on.
-fn grasped_end(session: &Session, view: &View, pos: Pos2) -> Option<(CurveId, CurveEnd)> {
+fn grasped_end(session: &Session, view: &View, pos: Pos2, grasp: f64) -> Option<(CurveId, CurveEnd)> {
     let curve = session.selected().filter(|curve| !curve.spline.is_closed())?;
     let ends = [(CurveEnd::Start, curve.spline.start_pose()), (CurveEnd::End, curve.spline.end_pose())];
-    let near = |pose: &fairpath_curve::Pose| f64::from(view.screen_of(pose.point).distance(pos)) <= GRASP;
+    let near = |pose: &fairpath_curve::Pose| f64::from(view.screen_of(pose.point).distance(pos)) <= grasp;
     ends.iter().find(|(_, pose)| near(pose)).map(|(end, _)| (curve.id, *end))
 }
 

@@ -8,6 +8,7 @@ mod paint;
 mod shapes;
 mod templates;
 
+pub(crate) use comb::suitable as suitable_comb;
 pub(crate) use hands::GRASP;
 
 use crate::app::{Shown, Tool};
@@ -39,6 +40,11 @@ pub(crate) struct Work<'a> {
 }
 
 impl Canvas {
+    /// How high the picture to trace over is for its width; 1 if there is none.
+    pub(crate) fn picture_height_per_width(&self) -> f64 {
+        self.backdrop.height_per_width()
+    }
+
     /// Drops what is in hand.
     pub(crate) fn cancel(&mut self, session: &mut Session) {
         self.hands.cancel(session);
@@ -69,6 +75,7 @@ impl Canvas {
             Tool::Select if self.hovered.is_some() => CursorIcon::Move,
             Tool::Pull if self.hovered.is_some() => CursorIcon::Grab,
             Tool::Cut | Tool::Corner if self.hovered.is_some() => CursorIcon::Crosshair,
+            Tool::Picture => CursorIcon::Move,
             _ => CursorIcon::Default,
         }
     }

@@ -15,6 +15,8 @@ const CURVE_WIDTH: f32 = 2.0;
 const SELECTED_WIDTH: f32 = 8.0;
 /// Distance of the teeth of a comb, points.
 const TOOTH_SPACING: f64 = 5.0;
+/// Most teeth of a curve, but for those that its segments have at least.
+const MOST_TEETH: f64 = 4000.0;
 /// Fewest teeth of a segment.
 const LEAST_TEETH: f64 = 10.0;
 
@@ -122,13 +124,14 @@ impl Brush<'_> {
 
     /// The curvature of a curve as a comb.
     pub(crate) fn comb(&self, spline: &Spline) {
-        let pixel = self.view.pixel_size();
-        let scale = self.shown.comb_scale * pixel * pixel;
+        // However near a curve is seen, its comb has no more teeth than these.
+        let spacing = (TOOTH_SPACING * self.view.pixel_size()).max(spline.length() / MOST_TEETH);
+        let scale = self.shown.comb_scale;
         let thin = Stroke::new(0.75, self.palette.comb);
         let mut hull: Vec<Pos2> = Vec::new();
         for segment in spline.segments() {
             // In a tight bend the line through the tips is much longer than the curve.
-            let spacing = (TOOTH_SPACING * pixel).min(segment.length / LEAST_TEETH);
+            let spacing = spacing.min(segment.length / LEAST_TEETH);
             for tooth in segment.comb(spacing, scale) {
                 let [base, tip] = [tooth.base, tooth.tip].map(|point| self.view.screen_of(point));
                 self.painter.line_segment([base, tip], thin);

@@ -45,7 +45,7 @@ pub(crate) fn show(app: &mut App, ui: &Ui) {
                     } else {
                         RichText::new(said(name))
                     };
-                    ui.label(label).on_hover_text(&parameter.description);
+                    ui.label(label).on_hover_text(explained(parameter, &usual[name]));
                     if let Some(value) = field(ui, parameter, &values[name]) {
                         if value == usual[name] {
                             wish.set.remove(name)
@@ -61,6 +61,18 @@ pub(crate) fn show(app: &mut App, ui: &Ui) {
     if wish != *app.session.neatening() {
         app.session.set_neatening(wish);
     }
+}
+
+/// What an option means, and what it is unless it is set here.
+fn explained(parameter: &Parameter, usual: &Value) -> String {
+    let usual = match usual {
+        Value::Null => "not allowed".into(),
+        Value::String(word) => said(word).to_lowercase(),
+        Value::Bool(on) => if *on { "on" } else { "off" }.into(),
+        number if parameter.unit == "1" => number.to_string(),
+        number => format!("{number} {}", parameter.unit),
+    };
+    format!("{}\n\nUsually: {usual}", parameter.description)
 }
 
 /// The name of an option as a person reads it.

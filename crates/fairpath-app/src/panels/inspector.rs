@@ -1,13 +1,13 @@
-//! The figures of the selected curve, or of the drawing, at the right.
+//! The figures of the selected curve, at the right.
 
-use super::{MARGIN, float};
+use super::{MARGIN, float, is_narrow};
 use crate::app::App;
 use eframe::egui::{Align2, Grid, RichText, ScrollArea, Ui, vec2};
 use fairpath_curve::{Continuity, Kind, Segment, Spline};
 use fairpath_sketch::Curve;
 
 /// Width of the panel, points.
-const WIDTH: f32 = 272.0;
+pub(super) const WIDTH: f32 = 272.0;
 
 /// Height of a row of figures, points.
 const ROW: f32 = 17.0;
@@ -17,7 +17,7 @@ const STRAIGHT: f64 = 100.0;
 
 /// Shows the figures.
 pub(crate) fn show(app: &mut App, ui: &Ui) {
-    if !app.shown.inspector {
+    if !app.shown.inspector || is_narrow(ui) {
         return;
     }
     let Some(curve) = app.session.selected().cloned() else { return };

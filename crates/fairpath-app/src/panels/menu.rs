@@ -1,56 +1,100 @@
 //! The menu of the document, at the upper left.
 
-use crate::app::App;
+use crate::app::{App, Tool};
+use crate::exports::{EXPORTS, Export};
 use crate::files::Purpose;
 use crate::icons::{Icon, icon};
-use eframe::egui::{Button, Role, Ui, WidgetInfo};
-use fairpath_io::SplineFormat;
+use eframe::egui::{Button, Context, Role, Ui, WidgetInfo};
+use fairpath_io::Unit;
 
-/// Formats of curves with what a person calls them.
-const FORMATS: [(SplineFormat, &str); 5] = [
-    (SplineFormat::Svg, "SVG, for drawing programs"),
-    (SplineFormat::Dxf, "DXF, for CAD"),
-    (SplineFormat::Json, "JSON, exact curves"),
-    (SplineFormat::Csv, "CSV, a row for each segment"),
-    (SplineFormat::Png, "PNG, a picture"),
-];
+/// What a person calls a unit.
+const fn unit_title(unit: Unit) -> &'static str {
+    match unit {
+        Unit::Px => "Pixels, 100 to the inch",
+        Unit::Pt => "Points, 72 to the inch",
+        Unit::Mm => "Millimetres",
+        Unit::Cm => "Centimetres",
+        Unit::M => "Metres",
+        Unit::Km => "Kilometres",
+        Unit::In => "Inches",
+        Unit::Ft => "Feet",
+    }
+}
 
 /// Shows the menu's button, and the menu when it is pressed.
 pub(crate) fn show(app: &mut App, ui: &mut Ui) {
     let ctx = ui.ctx().clone();
     let menu = ui.menu_button(icon(Icon::Menu, 17.0), |ui| {
-        let item =
-            |ui: &mut Ui, name: &str, shortcut: &str| ui.add(Button::new(name).shortcut_text(shortcut)).clicked();
         if item(ui, "New", "") {
             app.clear();
         }
         if item(ui, "Open…", "Ctrl+O") {
             app.files.choose(&ctx, Purpose::Open);
         }
-        if item(ui, "Save…", "Ctrl+S") {
+        if item(ui, "Save", "Ctrl+S") {
             app.save(&ctx);
         }
+        if item(ui, "Save as…", "Ctrl+Shift+S") {
+            app.save_as(&ctx);
+        }
         ui.separator();
-        if item(ui, "Import strokes or curves…", "") {
+        if item(ui, "Import…", "") {
             app.files.choose(&ctx, Purpose::Import);
         }
-        ui.menu_button("Export", |ui| {
-            for (format, name) in FORMATS {
-                if item(ui, name, "") {
-                    app.export(&ctx, format);
-                }
-            }
-        });
+        if item(ui, "Import French curves…", "") {
+            app.files.choose(&ctx, Purpose::Templates);
+        }
+        ui.menu_button("Export", |ui| exports(app, ui, &ctx));
         if item(ui, "Copy as SVG", "Ctrl+Shift+C") {
             app.copy_svg(&ctx);
         }
         ui.separator();
+        ui.menu_button("Unit", |ui| units(app, ui));
+        ui.separator();
         if item(ui, "Trace over a picture…", "") {
             app.files.choose(&ctx, Purpose::Background);
         }
-        if app.session.drawing().background.is_some() && item(ui, "Take the picture away", "") {
-            app.session.set_background(None);
+        if app.session.drawing().background.is_some() && item(ui, "Move and fade the picture", "") {
+            app.tool = Tool::Picture;
         }
     });
     menu.response.widget_info(|| WidgetInfo::labeled(Role::Button, true, "Menu"));
+}
+
+fn item(ui: &mut Ui, name: &str, shortcut: &str) -> bool {
+    ui.add(Button::new(name).shortcut_text(shortcut)).clicked()
+}
+
+/// What can be exported, by what it is of; what cannot be now says what to do first.
+fn exports(app: &mut App, ui: &mut Ui, ctx: &Context) {
+    let selected = app.session.selection().len();
+    for (of, exports) in EXPORTS {
+        let by_selection = exports.iter().all(|(export, _)| matches!(export, Export::Curves(_) | Export::Strokes(_)));
+        if by_selection && selected > 0 {
+            ui.weak(format!("{of}, {selected} selected"));
+        } else {
+            ui.weak(of);
+        }
+        for &(export, name) in exports {
+            let can = app.exportable(export);
+            let mut button = ui.add_enabled(can.is_ok(), Button::new(name));
+            if let Err(first) = can {
+                button = button.on_disabled_hover_text(first);
+            }
+            if button.clicked() {
+                app.export(ctx, export);
+            }
+        }
+    }
+}
+
+/// In which unit the drawing is measured; what was drawn keeps its size.
+fn units(app: &mut App, ui: &mut Ui) {
+    let now = app.session.drawing().unit;
+    for unit in Unit::ALL {
+        if ui.selectable_label(unit == now, unit_title(unit)).clicked() {
+            app.measure_in(unit);
+            ui.close();
+        }
+    }
 }

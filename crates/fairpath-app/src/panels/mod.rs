@@ -5,6 +5,7 @@ mod hint;
 mod inspector;
 mod menu;
 mod neaten;
+mod picture;
 pub(crate) mod plot;
 pub(crate) mod shortcuts;
 mod surface;
@@ -13,10 +14,38 @@ mod widgets;
 
 use crate::app::App;
 use crate::theme;
-use eframe::egui::{self, Align2, Area, Id, InnerResponse, Ui, Vec2};
+use eframe::egui::{self, Align2, Area, Id, InnerResponse, Rect, Ui, Vec2, vec2};
 
 /// Distance of what floats from the edge of the canvas, points.
 const MARGIN: f32 = 12.0;
+
+/// What the bars at the edges of the canvas take up with their margins, points.
+const BAR: f32 = 68.0;
+
+/// The share of the canvas that must be left between bars and panels for a drawing to be shown there; else it is shown behind them.
+const ROOM: f32 = 0.4;
+
+/// A canvas less wide than this, points, has no room for everything at once.
+const NARROW: f32 = 680.0;
+
+/// Whether there is little room beside each other.
+fn is_narrow(ui: &Ui) -> bool {
+    ui.max_rect().width() < NARROW
+}
+
+/// The part of the canvas over which nothing lies.
+pub(crate) fn room(app: &App) -> Rect {
+    let canvas = app.view.canvas();
+    let mut room = canvas.shrink2(vec2(BAR, BAR));
+    if app.shown.inspector && app.session.selected().is_some() {
+        room.max.x = canvas.max.x - inspector::WIDTH - 3.0 * MARGIN;
+    }
+    if app.session.surface().is_some() {
+        room.min.x = canvas.min.x + surface::SIDE + surface::BESIDE + 3.0 * MARGIN;
+    }
+    let enough = room.width() > ROOM * canvas.width() && room.height() > ROOM * canvas.height();
+    if enough { room } else { canvas.shrink(MARGIN) }
+}
 
 /// What the panels remember.
 #[derive(Debug, Default)]
@@ -45,6 +74,7 @@ pub(crate) fn show(app: &mut App, ui: &mut Ui) {
     toolbar::show(app, ui);
     neaten::show(app, ui);
     advanced::show(app, ui);
+    picture::show(app, ui);
     surface::show(app, ui);
     inspector::show(app, ui);
     hint::show(app, ui);

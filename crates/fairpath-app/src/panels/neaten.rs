@@ -1,7 +1,7 @@
 //! The method and the slider from as drawn to fairest, under the canvas's middle.
 
 use super::widgets::icon_button;
-use super::{MARGIN, float};
+use super::{MARGIN, float, is_narrow};
 use crate::app::App;
 use crate::icons::Icon;
 use eframe::egui::{Align2, ComboBox, Role, Slider, Ui, WidgetInfo, vec2};
@@ -32,8 +32,12 @@ const fn preset_title(preset: Preset) -> &'static str {
     }
 }
 
+/// Length of the slider where there is little room, points.
+const SHORT: f32 = 90.0;
+
 /// Shows method, preset and slider.
 pub(crate) fn show(app: &mut App, ui: &Ui) {
+    let is_narrow = is_narrow(ui);
     float(ui, "neaten", Align2::CENTER_BOTTOM, vec2(0.0, -MARGIN), |ui| {
         ui.horizontal(|ui| {
             let mut wish = app.session.neatening().clone();
@@ -46,7 +50,7 @@ pub(crate) fn show(app: &mut App, ui: &Ui) {
                 },
             );
             combo.response.widget_info(|| WidgetInfo::labeled(Role::ComboBox, true, "Method"));
-            if wish.method == Method::ShortestPath {
+            if wish.method == Method::ShortestPath && !is_narrow {
                 let combo = ComboBox::from_id_salt("preset")
                     .width(150.0)
                     .selected_text(preset_title(wish.preset))
@@ -59,6 +63,9 @@ pub(crate) fn show(app: &mut App, ui: &Ui) {
             }
             if wish.method == Method::FrenchCurve {
                 french_curves(app, ui, &mut wish);
+            }
+            if is_narrow {
+                ui.spacing_mut().slider_width = SHORT;
             }
             ui.separator();
             ui.weak("raw");

@@ -1,6 +1,7 @@
 //! The keyboard: one table for what keys do and for the list that shows it.
 
-use crate::app::{App, Ink, Tool};
+use super::toolbar::TOGGLES;
+use crate::app::{App, Tool};
 use crate::files::Purpose;
 use eframe::egui::{Align2, Context, Grid, Key, KeyboardShortcut, Modifiers, Ui, Window};
 
@@ -17,6 +18,7 @@ const TABLE: &[(Modifiers, Key, &str, Deed)] = &[
     (COMMAND, Key::Z, "Undo", |app, _| app.session.undo()),
     (COMMAND, Key::Y, "Redo", |app, _| app.session.redo()),
     (COMMAND, Key::O, "Open", |app, ctx| app.files.choose(ctx, Purpose::Open)),
+    (COMMAND_SHIFT, Key::S, "Save as", |app, ctx| app.save_as(ctx)),
     (COMMAND, Key::S, "Save", |app, ctx| app.save(ctx)),
     (COMMAND_SHIFT, Key::C, "Copy as SVG", |app, ctx| app.copy_svg(ctx)),
     (COMMAND, Key::A, "Select all", |app, _| app.session.select_all()),
@@ -25,6 +27,8 @@ const TABLE: &[(Modifiers, Key, &str, Deed)] = &[
         app.session.duplicate_selected(fairpath_curve::Vec2::new(by, by));
     }),
     (COMMAND, Key::Num0, "Show all", |app, _| app.fit_view()),
+    (NONE, Key::OpenBracket, "Select the curve before", |app, _| app.session.select_next(true)),
+    (NONE, Key::CloseBracket, "Select the curve after", |app, _| app.session.select_next(false)),
     (NONE, Key::Escape, "Drop the stroke in hand", |app, _| app.canvas.cancel(&mut app.session)),
     (NONE, Key::Delete, "Delete", |app, _| app.session.delete_selected()),
     (NONE, Key::Backspace, "Delete", |app, _| app.session.delete_selected()),
@@ -33,17 +37,16 @@ const TABLE: &[(Modifiers, Key, &str, Deed)] = &[
     (NONE, Key::B, "Pull through a point", |app, _| app.tool = Tool::Pull),
     (NONE, Key::C, "Cut", |app, _| app.tool = Tool::Cut),
     (NONE, Key::K, "Corner or smooth", |app, _| app.tool = Tool::Corner),
+    (NONE, Key::M, "Move and fade the picture", |app, _| app.tool = Tool::Picture),
     (NONE, Key::J, "Join two selected curves", |app, _| app.join_selected()),
     (NONE, Key::O, "Close or open", |app, _| app.toggle_closed()),
     (NONE, Key::I, "Inflate a closed curve", |app, _| app.inflate_selected()),
-    (NONE, Key::Num1, "Colours", |app, _| {
-        app.shown.ink = if app.shown.ink == Ink::Kinds { Ink::Plain } else { Ink::Kinds };
-    }),
-    (NONE, Key::Num2, "Strokes as drawn", |app, _| app.shown.ghost ^= true),
-    (NONE, Key::Num3, "Curvature comb", |app, _| app.shown.comb ^= true),
-    (NONE, Key::Num4, "Curvature plot", |app, _| app.shown.plot ^= true),
-    (NONE, Key::Num5, "Grid", |app, _| app.shown.grid ^= true),
-    (NONE, Key::Num6, "Figures", |app, _| app.shown.inspector ^= true),
+    (NONE, Key::Num1, "Colours", |app, _| app.toggle(&TOGGLES[0])),
+    (NONE, Key::Num2, "Strokes as drawn", |app, _| app.toggle(&TOGGLES[1])),
+    (NONE, Key::Num3, "Curvature comb", |app, _| app.toggle(&TOGGLES[2])),
+    (NONE, Key::Num4, "Curvature plot", |app, _| app.toggle(&TOGGLES[3])),
+    (NONE, Key::Num5, "Grid", |app, _| app.toggle(&TOGGLES[4])),
+    (NONE, Key::Num6, "Figures", |app, _| app.toggle(&TOGGLES[5])),
     (NONE, Key::Questionmark, "Shortcuts", |app, _| app.panels.shortcuts ^= true),
 ];
 
@@ -54,6 +57,8 @@ const GESTURES: &[(&str, &str)] = &[
     ("Space-drag, middle-drag", "Pan"),
     ("Drag an end", "Lengthen or shorten"),
     ("Alt-drag", "Duplicate"),
+    ("Arrows, with Shift", "Move by a point, by ten"),
+    ("Click on a pin", "Let the curve go from it"),
     ("Tap of two, three fingers", "Undo, redo"),
 ];
 
@@ -71,6 +76,34 @@ pub(crate) fn read(app: &mut App, ui: &Ui) {
         };
         if pressed {
             deed(app, ui.ctx());
+        }
+    }
+    if ui.memory(|memory| memory.focused().is_none()) {
+        read_arrows(app, ui);
+    }
+}
+
+/// Moves the selected curves by the arrows, which move the focus where anything has it.
+fn read_arrows(app: &mut App, ui: &Ui) {
+    const ARROWS: [(Key, [f64; 2]); 4] = [
+        (Key::ArrowLeft, [-1.0, 0.0]),
+        (Key::ArrowRight, [1.0, 0.0]),
+        (Key::ArrowUp, [0.0, -1.0]),
+        (Key::ArrowDown, [0.0, 1.0]),
+    ];
+    if app.session.selection().is_empty() {
+        return;
+    }
+    for (arrow, [x, y]) in ARROWS {
+        for (modifiers, points) in [(Modifiers::SHIFT, 10.0), (NONE, 1.0)] {
+            let count = ui.input_mut(|i| i.count_and_consume_key(modifiers, arrow));
+            let by = fairpath_curve::Vec2::new(x, y) * (points * count as f64 * app.view.pixel_size());
+            if count > 0 {
+                app.session.move_selected(by);
+            }
+        }
+        if ui.input(|i| i.key_released(arrow)) {
+            app.session.end_gesture();
         }
     }
 }

@@ -9,10 +9,10 @@ use fairpath_render::{Finish, Zebra};
 use fairpath_shape::InflateOptions;
 
 /// Side of the view, points.
-const SIDE: f32 = 280.0;
+pub(super) const SIDE: f32 = 280.0;
 
 /// Room that it leaves for the tools at its left and the slider below, points.
-const BESIDE: f32 = 56.0;
+pub(super) const BESIDE: f32 = 56.0;
 const ABOVE: f32 = 56.0;
 
 /// Shows the surface, if one was asked for.

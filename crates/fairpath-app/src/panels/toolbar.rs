@@ -1,25 +1,52 @@
 //! The tools at the left, and undo and what is shown at the top.
 
 use super::menu;
-use super::widgets::icon_button;
-use super::{MARGIN, float};
-use crate::app::{App, Ink, Tool};
-use crate::icons::Icon;
-use eframe::egui::{Align2, Theme, Ui, vec2};
+use super::widgets::{ICON, icon_button};
+use super::{MARGIN, float, is_narrow};
+use crate::app::{App, Ink, Shown, Tool};
+use crate::icons::{Icon, icon};
+use eframe::egui::{Align2, Role, Theme, Ui, WidgetInfo, vec2};
 
-const TOOLS: [(Tool, Icon, &str, &str); 5] = [
+const TOOLS: [(Tool, Icon, &str, &str); 6] = [
     (Tool::Draw, Icon::Pencil, "Draw", "P"),
     (Tool::Select, Icon::MousePointer2, "Select and move", "V"),
     (Tool::Pull, Icon::Pin, "Pull through a point", "B"),
     (Tool::Cut, Icon::Scissors, "Cut", "C"),
     (Tool::Corner, Icon::Spline, "Corner or smooth", "K"),
+    (Tool::Picture, Icon::Image, "Move and fade the picture", "M"),
+];
+
+/// Something that is shown or not.
+pub(super) struct Toggle {
+    icon: Icon,
+    name: &'static str,
+    key: &'static str,
+    is_on: fn(&Shown) -> bool,
+    turn: fn(&mut Shown),
+}
+
+/// What is shown or not.
+pub(super) const TOGGLES: [Toggle; 6] = [
+    Toggle {
+        icon: Icon::Palette,
+        name: "Colours by kind of segment",
+        key: "1",
+        is_on: |shown| shown.ink == Ink::Kinds,
+        turn: |shown| shown.ink = if shown.ink == Ink::Kinds { Ink::Plain } else { Ink::Kinds },
+    },
+    Toggle { icon: Icon::Ghost, name: "Strokes as drawn", key: "2", is_on: |s| s.ghost, turn: |s| s.ghost ^= true },
+    Toggle { icon: Icon::Waves, name: "Curvature comb", key: "3", is_on: |s| s.comb, turn: |s| s.comb ^= true },
+    Toggle { icon: Icon::ChartSpline, name: "Curvature plot", key: "4", is_on: |s| s.plot, turn: |s| s.plot ^= true },
+    Toggle { icon: Icon::Grid3x3, name: "Grid", key: "5", is_on: |s| s.grid, turn: |s| s.grid ^= true },
+    Toggle { icon: Icon::PanelRight, name: "Figures", key: "6", is_on: |s| s.inspector, turn: |s| s.inspector ^= true },
 ];
 
 /// Shows the tools.
 pub(crate) fn show(app: &mut App, ui: &Ui) {
     float(ui, "tools", Align2::LEFT_CENTER, vec2(MARGIN, 0.0), |ui| {
         ui.vertical(|ui| {
-            for (tool, icon, name, key) in TOOLS {
+            let traced = app.session.drawing().background.is_some();
+            for (tool, icon, name, key) in TOOLS.into_iter().filter(|(tool, ..)| *tool != Tool::Picture || traced) {
                 if icon_button(ui, icon, name, key, app.tool == tool, true).clicked() {
                     app.tool = tool;
                 }
@@ -43,29 +70,31 @@ pub(crate) fn show(app: &mut App, ui: &Ui) {
             }
         });
     });
+    let narrow = is_narrow(ui);
     float(ui, "shown", Align2::RIGHT_TOP, vec2(-MARGIN, MARGIN), |ui| {
         ui.horizontal(|ui| {
-            let shown = &mut app.shown;
-            let kinds = shown.ink == Ink::Kinds;
-            if icon_button(ui, Icon::Palette, "Colours by kind of segment", "1", kinds, true).clicked() {
-                shown.ink = if kinds { Ink::Plain } else { Ink::Kinds };
-            }
-            let toggles: [(&mut bool, Icon, &str, &str); 5] = [
-                (&mut shown.ghost, Icon::Ghost, "Strokes as drawn", "2"),
-                (&mut shown.comb, Icon::Waves, "Curvature comb", "3"),
-                (&mut shown.plot, Icon::ChartSpline, "Curvature plot", "4"),
-                (&mut shown.grid, Icon::Grid3x3, "Grid", "5"),
-                (&mut shown.inspector, Icon::PanelRight, "Figures", "6"),
-            ];
-            for (on, icon, name, key) in toggles {
-                if icon_button(ui, icon, name, key, *on, true).clicked() {
-                    *on = !*on;
+            if narrow {
+                let menu = ui.menu_button(icon(Icon::Eye, ICON), |ui| {
+                    for toggle in TOGGLES {
+                        let mut on = (toggle.is_on)(&app.shown);
+                        if ui.checkbox(&mut on, toggle.name).changed() {
+                            app.toggle(&toggle);
+                        }
+                    }
+                });
+                menu.response.widget_info(|| WidgetInfo::labeled(Role::Button, true, "What is shown"));
+            } else {
+                for toggle in TOGGLES {
+                    let on = (toggle.is_on)(&app.shown);
+                    if icon_button(ui, toggle.icon, toggle.name, toggle.key, on, true).clicked() {
+                        app.toggle(&toggle);
+                    }
                 }
+                ui.separator();
             }
-            ui.separator();
             let dark = ui.ctx().theme() == Theme::Dark;
-            let (icon, name) = if dark { (Icon::Sun, "Light") } else { (Icon::Moon, "Dark") };
-            if icon_button(ui, icon, name, "", false, true).clicked() {
+            let (glyph, name) = if dark { (Icon::Sun, "Light") } else { (Icon::Moon, "Dark") };
+            if icon_button(ui, glyph, name, "", false, true).clicked() {
                 ui.ctx().set_theme(if dark { Theme::Light } else { Theme::Dark });
             }
             if icon_button(ui, Icon::CircleQuestionMark, "Shortcuts", "?", app.panels.shortcuts, true).clicked() {
@@ -73,4 +102,15 @@ pub(crate) fn show(app: &mut App, ui: &Ui) {
             }
         });
     });
+}
+
+impl App {
+    /// Shows what was not shown, or the other way round.
+    pub(super) fn toggle(&mut self, toggle: &Toggle) {
+        let combs = self.shown.comb;
+        (toggle.turn)(&mut self.shown);
+        if self.shown.comb && !combs {
+            self.fit_combs();
+        }
+    }
 }

@@ -4,7 +4,10 @@ use crate::icons::{Icon, icon};
 use eframe::egui::{Button, Response, Role, Ui, Vec2, WidgetInfo};
 
 /// Size of an icon, points.
-const ICON: f32 = 17.0;
+pub(super) const ICON: f32 = 17.0;
+
+/// Least side of a button that is an icon, points.
+const LEAST: f32 = 30.0;
 
 /// A button that is an icon. `name` is what it is called, aloud and under the pointer; `shortcut` what does the same on the keyboard.
 pub(crate) fn icon_button(
@@ -15,8 +18,9 @@ pub(crate) fn icon_button(
     selected: bool,
     enabled: bool,
 ) -> Response {
+    let side = ui.spacing().interact_size.y.max(LEAST);
     let button =
-        Button::new(icon(glyph, ICON)).selected(selected).frame_when_inactive(selected).min_size(Vec2::splat(30.0));
+        Button::new(icon(glyph, ICON)).selected(selected).frame_when_inactive(selected).min_size(Vec2::splat(side));
     let response = ui.add_enabled(enabled, button);
     response.widget_info(|| WidgetInfo::selected(Role::Button, enabled, selected, name));
     let text = if shortcut.is_empty() { name.to_owned() } else { format!("{name}   {shortcut}") };

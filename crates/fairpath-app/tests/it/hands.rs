@@ -20,7 +20,16 @@ pub(crate) fn app<'a>() -> Harness<'a, App> {
 
 /// The application as it starts, with a store.
 pub(crate) fn app_with<'a>(store: Box<dyn Store>) -> Harness<'a, App> {
-    let builder = Harness::builder().with_size([1000.0, 700.0]).with_max_steps(20);
+    built([1000.0, 700.0], store)
+}
+
+/// The application as it starts in a window of that size.
+pub(crate) fn app_sized<'a>(size: [f32; 2]) -> Harness<'a, App> {
+    built(size, Box::new(NoStore))
+}
+
+fn built<'a>(size: [f32; 2], store: Box<dyn Store>) -> Harness<'a, App> {
+    let builder = Harness::builder().with_size(size).with_max_steps(20);
     let mut harness =
         builder.build_eframe(|creation| App::new(&creation.egui_ctx, Box::<InlineWorker>::default(), store));
     harness.run_steps(3);
@@ -48,6 +57,16 @@ pub(crate) fn press(harness: &mut Harness<'_, App>, pos: Pos2) {
 pub(crate) fn release(harness: &mut Harness<'_, App>, pos: Pos2) {
     button(harness, pos, false);
     harness.run_steps(2);
+}
+
+/// Drags from one place of the window to another, in a few moves.
+pub(crate) fn drag(harness: &mut Harness<'_, App>, from: Pos2, to: Pos2) {
+    press(harness, from);
+    for i in 1..=4 {
+        harness.event(Event::PointerMoved(from + (to - from) * (i as f32 / 4.0)));
+        harness.step();
+    }
+    release(harness, to);
 }
 
 fn button(harness: &mut Harness<'_, App>, pos: Pos2, pressed: bool) {

@@ -2,5 +2,10 @@
 
 mod documents;
 mod draw;
+mod dropped;
 mod hands;
+mod neaten;
+mod pictures;
 mod surface_view;
+mod tools;
+mod window;

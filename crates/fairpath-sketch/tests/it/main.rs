@@ -7,4 +7,5 @@ mod desk;
 mod fairness;
 mod hands;
 mod jobs;
+mod whole;
 mod work;
