@@ -173,7 +173,9 @@ impl App {
 
     /// Makes a picture without a window, up to the triangles that a graphics device would be given.
     pub fn frame_without_window(&mut self, ctx: &Context, input: egui::RawInput) {
-        let output = ctx.run_ui(input, |ui| self.frame(ui));
+        let mut output = ctx.run_ui(input, |ui| self.frame(ui));
+        // There is no device that would take them.
+        output.textures_delta.clear();
         let triangles = ctx.tessellate(output.shapes, output.pixels_per_point);
         self.end_frame();
         drop(triangles);

@@ -191,7 +191,8 @@ mod tests {
         for format in SurfaceFormat::ALL {
             assert!(all().any(|export| export == Export::Surface(format)), "{format:?}");
         }
-        let strokes = StrokeFile { strokes: vec![fairpath_fit::Stroke::new("a", vec![])], ..StrokeFile::default() };
+        let points = vec![fairpath_curve::Point::ORIGIN, fairpath_curve::Point::new(9.0, 3.0)];
+        let strokes = StrokeFile { strokes: vec![fairpath_fit::Stroke::new("a", points)], ..StrokeFile::default() };
         for format in [
             StrokeFormat::Json,
             StrokeFormat::Svg,

@@ -1,9 +1,11 @@
 //! What comes into a drawing: files that were chosen or dropped on the window come in by their bytes, and what they hold becomes part of the work.
 
 use crate::app::App;
+use crate::documents::stem;
 use crate::files::{FileEvent, Purpose};
 use eframe::egui::{Context, DroppedFileHandle};
 use fairpath_curve::Vec2;
+use fairpath_fit::TemplateSet;
 use fairpath_io::{ReadOptions, TemplateOptions, read_edits_from, read_templates_from};
 use fairpath_sketch::{Background, DrawingError, FileKind, decode_drawing, import};
 use std::path::PathBuf;
@@ -91,10 +93,14 @@ impl App {
 
     /// A set of French curves, which is chosen at once.
     fn take_templates(&mut self, name: &str, bytes: &[u8]) -> Result<(), String> {
-        let stem = super::documents::stem(name);
-        let file = read_templates_from(bytes, stem, &TemplateOptions::default()).map_err(|error| error.to_string())?;
+        let file = read_templates_from(bytes, name, &TemplateOptions::default()).map_err(|error| error.to_string())?;
         let count = file.set.templates().len();
-        let set = self.session.add_templates(file.set);
+        let set = match file.set {
+            // A set that tells no name has that of its file.
+            set if set.name() == name => TemplateSet::new(stem(name), set.templates().to_vec()),
+            set => Ok(set),
+        };
+        let set = self.session.add_templates(set.map_err(|error| error.to_string())?);
         let mut told = format!("{count} French curves in {set:?}.");
         if let Some(first) = file.warnings.first() {
             told += &format!(" Not all of it: {}", first.text);

@@ -16,7 +16,7 @@ const USUAL: f64 = 1500.0;
 /// Along this share of all curves teeth shall be no longer than `TALL`, and nowhere longer than `TALLEST`, points.
 const SHARE: f64 = 0.9;
 const TALL: f64 = 36.0;
-const TALLEST: f64 = 140.0;
+const TALLEST: f64 = 100.0;
 
 /// The scale that suits curves as they are seen, in the drawing's unit squared.
 pub(crate) fn suitable<'a>(curves: impl Iterator<Item = &'a Spline>, view: &View) -> f64 {

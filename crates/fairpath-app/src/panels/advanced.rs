@@ -69,8 +69,10 @@ fn explained(parameter: &Parameter, usual: &Value) -> String {
         Value::Null => "not allowed".into(),
         Value::String(word) => said(word).to_lowercase(),
         Value::Bool(on) => if *on { "on" } else { "off" }.into(),
-        number if parameter.unit == "1" => number.to_string(),
-        number => format!("{number} {}", parameter.unit),
+        number => match (number.as_f64().map_or_else(|| number.to_string(), short), parameter.unit.as_str()) {
+            (number, "1") => number,
+            (number, unit) => format!("{number} {unit}"),
+        },
     };
     format!("{}\n\nUsually: {usual}", parameter.description)
 }
@@ -131,7 +133,7 @@ fn number(ui: &mut Ui, parameter: &Parameter, value: &Value, nullable: bool, nam
     }
     if let Some(mut number) = value.as_f64() {
         let speed = (number.abs() * 0.01).max(0.001);
-        let response = ui.add(DragValue::new(&mut number).speed(speed).max_decimals(4));
+        let response = ui.add(DragValue::new(&mut number).speed(speed).custom_formatter(|number, _| short(number)));
         response.widget_info(|| WidgetInfo::labeled(Role::SpinButton, true, name));
         unit(ui, parameter);
         if response.changed() {
@@ -139,6 +141,12 @@ fn number(ui: &mut Ui, parameter: &Parameter, value: &Value, nullable: bool, nam
         }
     }
     changed
+}
+
+/// A number with no more digits than it needs.
+fn short(number: f64) -> String {
+    let text = format!("{number:.4}");
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
 fn unit(ui: &mut Ui, parameter: &Parameter) {

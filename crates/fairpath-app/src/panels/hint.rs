@@ -8,7 +8,7 @@ use eframe::egui::{Align2, RichText, Ui, vec2};
 const SHOWN_S: f64 = 6.0;
 
 /// From this width on there is room between the bars at the top, points.
-const BESIDE: f32 = 1160.0;
+pub(super) const BESIDE: f32 = 1160.0;
 
 /// Longer texts take several lines, points.
 const WIDEST: f32 = 420.0;

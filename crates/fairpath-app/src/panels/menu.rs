@@ -1,10 +1,11 @@
 //! The menu of the document, at the upper left.
 
+use super::widgets::menu_button;
 use crate::app::{App, Tool};
 use crate::exports::{EXPORTS, Export};
 use crate::files::Purpose;
-use crate::icons::{Icon, icon};
-use eframe::egui::{Button, Context, Role, Ui, WidgetInfo};
+use crate::icons::Icon;
+use eframe::egui::{Button, Context, Ui};
 use fairpath_io::Unit;
 
 /// What a person calls a unit.
@@ -24,7 +25,7 @@ const fn unit_title(unit: Unit) -> &'static str {
 /// Shows the menu's button, and the menu when it is pressed.
 pub(crate) fn show(app: &mut App, ui: &mut Ui) {
     let ctx = ui.ctx().clone();
-    let menu = ui.menu_button(icon(Icon::Menu, 17.0), |ui| {
+    menu_button(ui, Icon::Menu, "Menu", |ui| {
         if item(ui, "New", "") {
             app.clear();
         }
@@ -58,7 +59,6 @@ pub(crate) fn show(app: &mut App, ui: &mut Ui) {
             app.tool = Tool::Picture;
         }
     });
-    menu.response.widget_info(|| WidgetInfo::labeled(Role::Button, true, "Menu"));
 }
 
 fn item(ui: &mut Ui, name: &str, shortcut: &str) -> bool {

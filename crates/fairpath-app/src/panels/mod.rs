@@ -22,6 +22,9 @@ const MARGIN: f32 = 12.0;
 /// What the bars at the edges of the canvas take up with their margins, points.
 const BAR: f32 = 68.0;
 
+/// What a hint takes up, points.
+const HINT: f32 = 52.0;
+
 /// The share of the canvas that must be left between bars and panels for a drawing to be shown there; else it is shown behind them.
 const ROOM: f32 = 0.4;
 
@@ -42,6 +45,9 @@ pub(crate) fn room(app: &App) -> Rect {
     }
     if app.session.surface().is_some() {
         room.min.x = canvas.min.x + surface::SIDE + surface::BESIDE + 3.0 * MARGIN;
+    }
+    if app.panels.hint && canvas.width() < hint::BESIDE {
+        room.min.y += HINT;
     }
     let enough = room.width() > ROOM * canvas.width() && room.height() > ROOM * canvas.height();
     if enough { room } else { canvas.shrink(MARGIN) }

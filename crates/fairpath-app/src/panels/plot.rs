@@ -2,9 +2,12 @@
 
 use crate::app::App;
 use crate::theme::Palette;
-use eframe::egui::{Panel, Ui};
+use eframe::egui::{Panel, Ui, Vec2, vec2};
 use egui_plot::{HLine, Line, Plot, PlotPoints, VLine};
 use fairpath_curve::Spline;
+
+/// Beside and above the curve in the plot, as shares of its width and height.
+const AIR: Vec2 = vec2(0.02, 0.12);
 
 /// Curvatures that differ by less than this share of one of them are the same, rounded.
 const SAME: f64 = 1e-6;
@@ -52,6 +55,7 @@ pub(crate) fn show(app: &mut App, ui: &mut Ui) {
             .allow_scroll(false)
             .allow_drag(false)
             .allow_boxed_zoom(false)
+            .set_margin_fraction(AIR)
             .show_background(false)
             .grid_color(palette.grid_strong)
             .include_x(0.0)

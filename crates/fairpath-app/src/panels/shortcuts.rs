@@ -1,9 +1,10 @@
 //! The keyboard: one table for what keys do and for the list that shows it.
 
+use super::is_narrow;
 use super::toolbar::TOGGLES;
 use crate::app::{App, Tool};
 use crate::files::Purpose;
-use eframe::egui::{Align2, Context, Grid, Key, KeyboardShortcut, Modifiers, Ui, Window};
+use eframe::egui::{Align2, Context, Grid, Key, KeyboardShortcut, Modifiers, ScrollArea, Ui, Window};
 
 /// What keys can do.
 type Deed = fn(&mut App, &Context);
@@ -108,29 +109,58 @@ fn read_arrows(app: &mut App, ui: &Ui) {
     }
 }
 
-/// Shows the list.
+/// Height of a row of the list, points.
+const ROW: f32 = 18.0;
+
+/// What the list leaves free of the window above and below, points.
+const AROUND: f32 = 110.0;
+
+/// Shows the list, in two columns where there is room beside each other.
 pub(crate) fn show(app: &mut App, ui: &Ui) {
     let mut open = app.panels.shortcuts;
+    let window = ui.ctx().content_rect().size();
+    let columns = if is_narrow(ui) { 1 } else { 2 };
     Window::new("Shortcuts")
         .open(&mut open)
         .anchor(Align2::CENTER_CENTER, [0.0, 0.0])
         .resizable(false)
         .collapsible(false)
         .show(ui.ctx(), |ui| {
-            Grid::new("shortcuts").num_columns(2).spacing([28.0, 4.0]).show(ui, |ui| {
-                let keys = TABLE.iter().map(|&(modifiers, key, name, _)| {
-                    (ui.ctx().format_shortcut(&KeyboardShortcut::new(modifiers, key)), name)
+            ui.spacing_mut().interact_size.y = ROW;
+            let rows = rows(ui);
+            ScrollArea::vertical().max_height((window.y - AROUND).max(ROW)).auto_shrink([true, true]).show(ui, |ui| {
+                Grid::new("shortcuts").num_columns(2 * columns).spacing([24.0, 3.0]).show(ui, |ui| {
+                    let height = rows.len().div_ceil(columns);
+                    for i in 0..height {
+                        for (shortcut, name) in (i..rows.len()).step_by(height).map(|i| &rows[i]) {
+                            ui.weak(shortcut);
+                            ui.label(*name);
+                        }
+                        ui.end_row();
+                    }
                 });
-                let keys: Vec<(String, &str)> = keys.collect();
-                let hands = GESTURES.iter().map(|(gesture, name)| ((*gesture).to_owned(), *name));
-                for (shortcut, name) in keys.into_iter().chain(hands) {
-                    ui.weak(shortcut);
-                    ui.label(name);
-                    ui.end_row();
-                }
             });
         });
     app.panels.shortcuts = open;
+}
+
+/// All keys and gestures with what they do; keys that do the same stand together.
+fn rows(ui: &Ui) -> Vec<(String, &'static str)> {
+    let mut rows: Vec<(String, &str)> = Vec::new();
+    for &(modifiers, key, name, _) in TABLE {
+        let shortcut = match key {
+            Key::OpenBracket => "[".into(),
+            Key::CloseBracket => "]".into(),
+            Key::Questionmark => "?".into(),
+            _ => ui.ctx().format_shortcut(&KeyboardShortcut::new(modifiers, key)),
+        };
+        match rows.iter_mut().find(|(_, other)| *other == name) {
+            Some((shortcuts, _)) => *shortcuts = format!("{shortcuts}, {shortcut}"),
+            None => rows.push((shortcut, name)),
+        }
+    }
+    rows.extend(GESTURES.iter().map(|(gesture, name)| ((*gesture).to_owned(), *name)));
+    rows
 }
 
 impl App {

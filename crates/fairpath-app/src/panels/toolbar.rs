@@ -1,11 +1,11 @@
 //! The tools at the left, and undo and what is shown at the top.
 
 use super::menu;
-use super::widgets::{ICON, icon_button};
+use super::widgets::{icon_button, menu_button};
 use super::{MARGIN, float, is_narrow};
 use crate::app::{App, Ink, Shown, Tool};
-use crate::icons::{Icon, icon};
-use eframe::egui::{Align2, Role, Theme, Ui, WidgetInfo, vec2};
+use crate::icons::Icon;
+use eframe::egui::{Align2, Theme, Ui, vec2};
 
 const TOOLS: [(Tool, Icon, &str, &str); 6] = [
     (Tool::Draw, Icon::Pencil, "Draw", "P"),
@@ -74,7 +74,7 @@ pub(crate) fn show(app: &mut App, ui: &Ui) {
     float(ui, "shown", Align2::RIGHT_TOP, vec2(-MARGIN, MARGIN), |ui| {
         ui.horizontal(|ui| {
             if narrow {
-                let menu = ui.menu_button(icon(Icon::Eye, ICON), |ui| {
+                menu_button(ui, Icon::Eye, "What is shown", |ui| {
                     for toggle in TOGGLES {
                         let mut on = (toggle.is_on)(&app.shown);
                         if ui.checkbox(&mut on, toggle.name).changed() {
@@ -82,7 +82,6 @@ pub(crate) fn show(app: &mut App, ui: &Ui) {
                         }
                     }
                 });
-                menu.response.widget_info(|| WidgetInfo::labeled(Role::Button, true, "What is shown"));
             } else {
                 for toggle in TOGGLES {
                     let on = (toggle.is_on)(&app.shown);

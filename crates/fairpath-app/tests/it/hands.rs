@@ -20,16 +20,24 @@ pub(crate) fn app<'a>() -> Harness<'a, App> {
 
 /// The application as it starts, with a store.
 pub(crate) fn app_with<'a>(store: Box<dyn Store>) -> Harness<'a, App> {
-    built([1000.0, 700.0], store)
+    built([1000.0, 700.0], SLOW, store)
 }
 
 /// The application as it starts in a window of that size.
 pub(crate) fn app_sized<'a>(size: [f32; 2]) -> Harness<'a, App> {
-    built(size, Box::new(NoStore))
+    app_at_rate(size, SLOW)
 }
 
-fn built<'a>(size: [f32; 2], store: Box<dyn Store>) -> Harness<'a, App> {
-    let builder = Harness::builder().with_size(size).with_max_steps(20);
+/// The application as it starts in a window of that size, with so many seconds from one frame to the next.
+pub(crate) fn app_at_rate<'a>(size: [f32; 2], frame_s: f32) -> Harness<'a, App> {
+    built(size, frame_s, Box::new(NoStore))
+}
+
+/// The harness's own rate: a quarter of a second for a frame.
+const SLOW: f32 = 0.25;
+
+fn built<'a>(size: [f32; 2], frame_s: f32, store: Box<dyn Store>) -> Harness<'a, App> {
+    let builder = Harness::builder().with_size(size).with_step_dt(frame_s).with_max_steps(20);
     let mut harness =
         builder.build_eframe(|creation| App::new(&creation.egui_ctx, Box::<InlineWorker>::default(), store));
     harness.run_steps(3);

@@ -71,7 +71,9 @@ fn every_option_of_every_method_has_a_field_of_its_name() {
             }
             let mut words = parameter.name.replace('_', " ");
             words[..1].make_ascii_uppercase();
-            assert!(app.query_all_by_label(&words).count() >= 2, "{title}: {words} has a name and a field");
+            // One that is not allowed at present has the switch that allows it.
+            let fields_of = app.query_all_by_label_contains(&words).count();
+            assert!(fields_of >= 2, "{title}: {words} has a name and a field");
             fields += 1;
         }
         assert!(fields > 0, "{title}");

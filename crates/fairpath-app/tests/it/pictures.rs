@@ -64,12 +64,12 @@ fn open(app: &mut Harness<'_, App>, file: &str, names: &[&str], neatening: &Neat
 
 #[test]
 fn first_start() {
-    compare(&mut window(Theme::Light, [1000.0, 700.0]), "first-start");
+    compare(&mut window(Theme::Light, [800.0, 560.0]), "first-start");
 }
 
 #[test]
 fn combs_plot_and_figures() {
-    let mut app = window(Theme::Light, [1200.0, 760.0]);
+    let mut app = window(Theme::Light, [1000.0, 640.0]);
     select(&mut app, 1);
     keys(&mut app, &[Key::Num3, Key::Num4]);
     app.key_press_modifiers(Modifiers::COMMAND, Key::Num0);
@@ -78,7 +78,7 @@ fn combs_plot_and_figures() {
 
 #[test]
 fn dark_with_plain_ink() {
-    let mut app = window(Theme::Dark, [1000.0, 700.0]);
+    let mut app = window(Theme::Dark, [800.0, 560.0]);
     select(&mut app, 2);
     keys(&mut app, &[Key::Num1]);
     compare(&mut app, "dark");
@@ -86,14 +86,14 @@ fn dark_with_plain_ink() {
 
 #[test]
 fn preview_of_a_correction() {
-    let mut app = window(Theme::Light, [1000.0, 700.0]);
+    let mut app = window(Theme::Light, [800.0, 560.0]);
     app.state_mut().open_drawing(Drawing::default());
     app.run_steps(2);
-    draw(&mut app, &arch(500.0, 480.0, 220.0));
+    draw(&mut app, &arch(400.0, 420.0, 220.0));
     let bump = |i: usize| {
         let a = std::f32::consts::PI * (1.35 + 0.3 * i as f32 / 40.0);
         let radius = 220.0 + 60.0 * (std::f32::consts::PI * i as f32 / 40.0).sin().powi(2);
-        pos2(500.0 + radius * a.cos(), 480.0 + radius * a.sin())
+        pos2(400.0 + radius * a.cos(), 420.0 + radius * a.sin())
     };
     let bump: Vec<Pos2> = (0..=40).map(bump).collect();
     press(&mut app, bump[0]);
@@ -109,7 +109,7 @@ fn preview_of_a_correction() {
 
 #[test]
 fn french_curves_laid_over() {
-    let mut app = window(Theme::Light, [1000.0, 700.0]);
+    let mut app = window(Theme::Light, [800.0, 560.0]);
     let neatening = Neatening { method: Method::FrenchCurve, ..Neatening::default() };
     open(&mut app, "hello.json", &["letter S", "bend"], &neatening);
     select(&mut app, 0);
@@ -118,7 +118,7 @@ fn french_curves_laid_over() {
 
 #[test]
 fn inflated_surface() {
-    let mut app = window(Theme::Light, [1000.0, 700.0]);
+    let mut app = window(Theme::Light, [800.0, 560.0]);
     open(&mut app, "duck.json", &["duck"], &Neatening::default());
     select(&mut app, 0);
     keys(&mut app, &[Key::I]);
@@ -128,7 +128,7 @@ fn inflated_surface() {
 #[test]
 fn options_of_the_method() {
     use egui_kittest::kittest::Queryable;
-    let mut app = window(Theme::Light, [1000.0, 700.0]);
+    let mut app = window(Theme::Light, [800.0, 560.0]);
     app.get_by_label("All options").click();
     compare(&mut app, "options");
 }
@@ -136,14 +136,14 @@ fn options_of_the_method() {
 #[test]
 fn shortcuts() {
     use egui_kittest::kittest::Queryable;
-    let mut app = window(Theme::Dark, [1000.0, 760.0]);
+    let mut app = window(Theme::Dark, [1000.0, 640.0]);
     app.get_by_label("Shortcuts").click();
     compare(&mut app, "shortcuts");
 }
 
 #[test]
 fn a_dense_screen() {
-    let builder = Harness::builder().with_size([620.0, 420.0]).with_pixels_per_point(2.0).with_max_steps(20);
+    let builder = Harness::builder().with_size([540.0, 380.0]).with_pixels_per_point(2.0).with_max_steps(20);
     let mut app = builder
         .wgpu()
         .build_eframe(|creation| App::new(&creation.egui_ctx, Box::<InlineWorker>::default(), Box::new(NoStore)));

@@ -1,10 +1,11 @@
 //! The window as a whole: names and keys of everything, small windows, fingers.
 
-use crate::hands::{app_sized, arch, draw, empty_app, press, release, session};
+use crate::hands::{app_at_rate, app_sized, arch, draw, empty_app, press, release, session};
 use eframe::egui::{Event, Key, Modifiers, Pos2, Rect, TouchDeviceId, TouchId, TouchPhase, pos2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use fairpath_app::App;
+use fairpath_sketch::Drawing;
 
 /// Names of what is always there.
 const ALWAYS: [&str; 12] = [
@@ -69,7 +70,8 @@ fn the_tabulator_reaches_the_menu_and_the_arrows_its_entries() {
     assert!(reached, "the menu has the focus at some time");
     app.key_press(Key::Enter);
     app.run_steps(3);
-    for entry in ["New", "Open…", "Save", "Save as…", "Import…", "Import French curves…", "Copy as SVG"] {
+    for entry in ["New", "Open…", "Save as…", "Import…", "Import French curves…", "Export", "Unit", "Copy as SVG"]
+    {
         app.get_by_label_contains(entry);
     }
 }
@@ -126,7 +128,10 @@ fn tap(app: &mut Harness<'_, App>, fingers: u64) {
 
 #[test]
 fn a_tap_of_two_fingers_undoes_and_of_three_redoes() {
-    let mut app = empty_app();
+    // Each event has a frame of its own, and a tap is short.
+    let mut app = app_at_rate([1000.0, 700.0], 1.0 / 60.0);
+    app.state_mut().open_drawing(Drawing::default());
+    app.step();
     draw(&mut app, &arch(300.0, 300.0, 80.0));
     let drawn = session(&app).drawing().clone();
     tap(&mut app, 2);

@@ -1,4 +1,4 @@
-//! Draws the strokes of a file: `cargo run -p fairpath-io --example pictures -- IN OUT.png|.svg [sheet] [comb] [stages]`.
+//! Draws the strokes of a file: `cargo run -p fairpath-io --example stroke_pictures -- IN OUT.png|.svg [sheet] [comb] [stages]`.
 //! With `stages`, the pictures of figure 4 of the first stroke go beside OUT.
 //!
 //! Any other extension that splines have (json, csv, dxf) is written as such.
