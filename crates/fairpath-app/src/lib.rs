@@ -8,6 +8,8 @@ mod canvas;
 mod documents;
 mod example;
 mod files;
+#[cfg(not(target_arch = "wasm32"))]
+mod given;
 mod icons;
 mod pace;
 mod panels;
@@ -21,6 +23,8 @@ pub mod web;
 mod worker;
 
 pub use app::App;
+#[cfg(not(target_arch = "wasm32"))]
+pub use given::GivenFile;
 pub use pace::{PaceReport, Times};
 #[cfg(not(target_arch = "wasm32"))]
 pub use store::FileStore;

@@ -2,5 +2,6 @@
 
 mod documents;
 mod draw;
+mod given;
 mod hands;
 mod surface_view;

@@ -1,0 +1,75 @@
+//! Files that are given when the application starts: paths come in, are read and understood before there is a window, and what they hold is in
+//! the first picture.
+
+use crate::app::App;
+use crate::files::Purpose;
+use anyhow::{Context as _, Result, anyhow};
+use eframe::egui::{Context, Pos2, Rect, Vec2};
+use fairpath_sketch::{Drawing, Neatening, decode_drawing, import, is_drawing};
+use std::path::Path;
+
+/// A file that can be shown.
+#[derive(Debug)]
+pub struct GivenFile {
+    name: String,
+    bytes: Vec<u8>,
+}
+
+impl GivenFile {
+    /// Reads a drawing, strokes, curves or a picture.
+    ///
+    /// # Errors
+    /// When it cannot be read, or is none of these; the message names the file and says what to do.
+    pub fn read(path: &Path) -> Result<Self> {
+        let shown = path.display();
+        let bytes = std::fs::read(path).with_context(|| {
+            format!("{shown}: cannot be read; give a drawing, strokes, curves or a picture that is there")
+        })?;
+        let understood = if is_picture(&bytes) {
+            let reader = image::ImageReader::new(std::io::Cursor::new(&bytes)).with_guessed_format();
+            let size = reader.map_err(|error| anyhow!(error)).and_then(|reader| Ok(reader.into_dimensions()?));
+            size.map(drop).with_context(|| format!("{shown}: cannot be shown; save the picture as a PNG and give that"))
+        } else if is_drawing(&bytes) {
+            decode_drawing(&bytes, &shown.to_string()).map(drop).map_err(Into::into)
+        } else {
+            import(&bytes, &shown.to_string(), &Neatening::default()).map(drop).map_err(Into::into)
+        };
+        understood?;
+        let name = path.file_name().map_or_else(|| shown.to_string(), |name| name.to_string_lossy().into_owned());
+        Ok(Self { name, bytes })
+    }
+}
+
+fn is_picture(bytes: &[u8]) -> bool {
+    image::guess_format(bytes).is_ok()
+}
+
+impl App {
+    /// Shows what was given instead of the drawing that an earlier run kept, to which undo leads back: a first drawing is gone on with, everything else is
+    /// added to it. `window` is the size that the window will have, points. Without files nothing changes.
+    pub fn open_given(&mut self, ctx: &Context, files: &[GivenFile], window: Vec2) {
+        let Some((first, rest)) = files.split_first() else { return };
+        // A picture is laid into what is seen.
+        self.view.on(Rect::from_min_size(Pos2::ZERO, window));
+        self.open_drawing(Drawing::default());
+        self.panels.hint = false;
+        self.keep(ctx);
+        let others = match decode_drawing(&first.bytes, &first.name) {
+            Ok(drawing) if is_drawing(&first.bytes) => {
+                self.session.replace("Open", drawing);
+                self.document.name =
+                    Path::new(&first.name).file_stem().map_or_else(String::new, |s| s.to_string_lossy().into());
+                rest
+            }
+            _ => {
+                self.clear();
+                files
+            }
+        };
+        for file in others {
+            self.take_file(Purpose::Import, &file.name, &file.bytes);
+        }
+        self.session.select(None, false);
+        self.fit_view = true;
+    }
+}
