@@ -62,7 +62,7 @@ fn judge(page: &Path, browser: &Path, packages: &Path) -> Result<Outcome> {
         bail!("the page does not do in the browser what it must; pictures are in {}", out.display());
     }
     let seen: Value = serde_json::from_str(&fs::read_to_string(out.join("seen.json"))?)?;
-    let curves = same_curves(&out, &seen["state"]["pixel_size"])?;
+    let curves = same_curves(&out, "saved.svg", &seen["state"]["pixel_size"])?;
     let ready_ms = seen["readyMs"].as_f64().context("the browser measured no time")?;
     let hint =
         if ready_ms > WANTED_READY_MS { format!(", more than the {WANTED_READY_MS} ms wanted") } else { String::new() };
@@ -71,14 +71,15 @@ fn judge(page: &Path, browser: &Path, packages: &Path) -> Result<Outcome> {
     )))
 }
 
-/// The curves of the saved drawing and those of the command line for the recorded strokes, drawn with pixels of that size: the same to the
-/// bit. How many there are.
-fn same_curves(out: &Path, pixel_size: &Value) -> Result<usize> {
+/// The curves of a file in `out` and those of the command line for the strokes that are recorded there, drawn with pixels of that size: the same
+/// to the bit. How many there are.
+pub(crate) fn same_curves(out: &Path, saved: &str, pixel_size: &Value) -> Result<usize> {
+    let from = out.join(saved);
     let (saved, fitted) = (out.join("converted.json"), out.join("fitted.json"));
     let run = |args: &[&str], from: &Path, to: &Path| {
         process::run(Command::new(tree::fairpath()?).args(args).arg(from).arg("-o").arg(to))
     };
-    run(&["convert"], &out.join("saved.svg"), &saved)?;
+    run(&["convert"], &from, &saved)?;
     run(&["fit", "--no-times", "--pixel-size", &pixel_size.to_string()], &out.join("recorded.json"), &fitted)?;
     let (saved, fitted) = (curves(&saved)?, curves(&fitted)?);
     compare(&saved, &fitted)?;
@@ -102,11 +103,11 @@ fn curves(file: &Path) -> Result<Vec<String>> {
 
 fn compare(saved: &[String], fitted: &[String]) -> Result<()> {
     if fitted.is_empty() || saved.len() != fitted.len() {
-        bail!("the page saved {} curves, and the command line made {}", saved.len(), fitted.len());
+        bail!("{} curves were saved, and the command line made {}", saved.len(), fitted.len());
     }
     for (i, (saved, fitted)) in saved.iter().zip(fitted).enumerate() {
         if saved != fitted {
-            bail!("curve {} differs:\n  page         {saved}\n  command line {fitted}", i + 1);
+            bail!("curve {} differs:\n  saved        {saved}\n  command line {fitted}", i + 1);
         }
     }
     Ok(())

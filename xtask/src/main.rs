@@ -7,12 +7,14 @@ mod fuzz;
 mod generate;
 mod growth;
 mod judge_web;
+mod judge_window;
 mod judges;
 mod layers;
 mod limits;
 mod pictures;
 mod process;
 mod rectilinear;
+mod session;
 mod steps;
 mod table;
 mod table1;
@@ -20,6 +22,7 @@ mod test;
 mod tools;
 mod tree;
 mod web;
+mod window;
 
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -38,7 +41,7 @@ struct Cli {
 enum Chore {
     /// The one test command: style, lints, tests, documentation, layers and every outside judge.
     Test,
-    /// The judges alone: kernel, DXF, SVG, glTF, the page of a comparison, and the application's page in a browser.
+    /// The judges alone: kernel, DXF, SVG, glTF, the page of a comparison, and the application in a browser and in a window.
     Judge,
     /// Fit every file of the shared data folder, judge the results and hold them against the limits.
     Evaluate {
@@ -86,6 +89,17 @@ enum Chore {
     Layers,
     /// Drive the application's page in a browser, alone of all judges.
     JudgeWeb,
+    /// Drive the application's window on a screen that nobody sees, alone of all judges.
+    JudgeWindow,
+    /// Draw hundreds of recorded strokes in one session of the window, released, and say how fast it was and how much memory it took.
+    Session {
+        /// On the screen that you sit at, whose pointer is taken, instead of one that nobody sees, which is drawn by software.
+        #[arg(long)]
+        on_screen: bool,
+        /// How many strokes.
+        #[arg(long, default_value_t = 500)]
+        strokes: usize,
+    },
     /// Build the page that runs the application in a browser, and say how large it is.
     Web {
         /// For tests: soon built, and twice as large.
@@ -124,6 +138,8 @@ fn main() -> ExitCode {
         Chore::Generate { check } => generate::run(check),
         Chore::Layers => layers::run().map(|note| println!("{note}")),
         Chore::JudgeWeb => test::judge_web(),
+        Chore::JudgeWindow => test::judge_window(),
+        Chore::Session { on_screen, strokes } => session::run(on_screen, strokes),
         Chore::Web { quick, serve, port, toolchain } => {
             let kind = if quick { web::Kind::Quick } else { web::Kind::Release };
             web::run(kind, toolchain, serve.then_some(port))

@@ -4,7 +4,7 @@ use anyhow::{Result, bail};
 
 use crate::process::{cargo, run as run_command};
 use crate::steps::{Outcome, Steps};
-use crate::{evaluate, generate, judge_web, judges, layers, process, rectilinear, tools, tree, web};
+use crate::{evaluate, generate, judge_web, judge_window, judges, layers, process, rectilinear, tools, tree, web};
 
 /// Runs everything that can tell whether the project is sound.
 pub(crate) fn run() -> Result<()> {
@@ -55,6 +55,15 @@ fn add_judges(steps: &mut Steps) {
     steps.step("judge: glTF", judges::gltf);
     steps.step("judge: page", judges::page);
     steps.step("judge: web", judge_web::step);
+    steps.step("judge: window", judge_window::step);
+}
+
+/// The desktop's window alone.
+pub(crate) fn judge_window() -> Result<()> {
+    let mut steps = Steps::default();
+    steps.step("release build", release_build);
+    steps.step("judge: window", judge_window::step);
+    steps.finish()
 }
 
 /// The page of the application alone.

@@ -166,6 +166,12 @@ impl App {
         self.pace.curves_ms()
     }
 
+    /// The work for each picture while a stroke was drawn, milliseconds.
+    #[must_use]
+    pub fn frame_times_ms(&self) -> &[f64] {
+        self.pace.frames_ms()
+    }
+
     /// Begins to time anew.
     pub fn forget_pace(&mut self) {
         self.pace = Pace::default();
@@ -182,7 +188,7 @@ impl App {
     }
 
     fn frame(&mut self, ui: &mut Ui) {
-        let before = self.session.drawing().curves().len();
+        let before = self.session.strokes_drawn();
         self.pace.begin(self.session.hand().is_some());
         self.take_answers();
         self.read_files(ui.ctx());
@@ -204,8 +210,8 @@ impl App {
             self.panels.say(trouble.text);
         }
         self.take_answers();
-        let curves = self.session.drawing().curves();
-        self.drawn = if curves.len() == before + 1 { curves.last().map(|curve| curve.id) } else { None };
+        let drew = self.session.strokes_drawn() > before;
+        self.drawn = self.session.drawing().curves().last().map(|curve| curve.id).filter(|_| drew);
     }
 
     fn end_frame(&mut self) {

@@ -9,6 +9,8 @@ mod documents;
 mod example;
 mod exports;
 mod files;
+#[cfg(not(target_arch = "wasm32"))]
+mod given;
 mod icons;
 mod imports;
 mod pace;
@@ -23,6 +25,8 @@ pub mod web;
 mod worker;
 
 pub use app::App;
+#[cfg(not(target_arch = "wasm32"))]
+pub use given::GivenFile;
 pub use pace::{PaceReport, Times};
 #[cfg(not(target_arch = "wasm32"))]
 pub use store::FileStore;

@@ -4,8 +4,8 @@ use fairpath_sketch::{CurveId, Drawing};
 use serde::Serialize;
 use web_time::Instant;
 
-/// Most times that are remembered.
-const MOST: usize = 4096;
+/// Most times that are remembered: half an hour of drawing without a pause.
+const MOST: usize = 1 << 17;
 
 /// Times so far, milliseconds.
 #[derive(Debug, Default)]
@@ -71,6 +71,11 @@ impl Pace {
     /// Each time from the last point of a stroke to its curve in the picture.
     pub(crate) fn curves_ms(&self) -> &[f64] {
         &self.curves_ms
+    }
+
+    /// The work for each picture while a stroke was drawn.
+    pub(crate) fn frames_ms(&self) -> &[f64] {
+        &self.frames_ms
     }
 
     /// The times so far.

@@ -232,6 +232,7 @@ impl Session {
         });
         match drawn {
             Ok(_) => {
+                self.strokes_drawn += 1;
                 self.selection.clear();
                 self.want_all();
             }

@@ -37,6 +37,8 @@ pub struct Session {
     boxes: RefCell<Boxes>,
     /// Strokes drawn over curves that are not yet drawn into them, in their order.
     pub(crate) corrections: Vec<Correction>,
+    /// How many strokes became curves of their own.
+    pub(crate) strokes_drawn: u64,
 }
 
 impl Session {
@@ -111,6 +113,12 @@ impl Session {
     #[must_use]
     pub fn hand(&self) -> Option<&Hand> {
         self.hand.as_ref()
+    }
+
+    /// How many strokes became curves of their own since the drawing was opened. Only grows, whatever is undone.
+    #[must_use]
+    pub fn strokes_drawn(&self) -> u64 {
+        self.strokes_drawn
     }
 
     /// What did not work last, until it is taken.
@@ -236,6 +244,12 @@ impl Session {
         self.open(Drawing::new(drawing.unit, drawing.y));
         self.history.act("Restore", |empty| *empty = drawing);
         self.want_all();
+    }
+
+    /// Goes on with another drawing, from which undo leads back to this one.
+    pub fn replace(&mut self, deed: &str, drawing: Drawing) {
+        self.history.act(deed, |present| *present = drawing);
+        self.turned();
     }
 
     /// Adds curves, such as those of a file, and selects them.

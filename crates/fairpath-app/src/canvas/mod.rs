@@ -21,6 +21,10 @@ use hands::Hands;
 use paint::Brush;
 use shapes::Shapes;
 
+/// From this width on the scale has room beside the bar below, points; else it is so far up.
+const BESIDE_THE_BAR: f32 = 960.0;
+const ABOVE_THE_BAR: f32 = 76.0;
+
 /// What the canvas remembers from one frame to the next.
 #[derive(Default)]
 pub(crate) struct Canvas {
@@ -92,7 +96,9 @@ impl Canvas {
         let hovered = self.hovered.and_then(|(id, station)| Some((&**session.drawing().curve(id)?, station)));
         brush.session(session, &mut self.shapes, hovered);
         if shown.grid {
-            brush.scale_bar(session.drawing().unit, rect.right_bottom() - egui::vec2(16.0, 14.0));
+            // Beside the bar below, where there is room, else above it.
+            let up = if rect.width() < BESIDE_THE_BAR { ABOVE_THE_BAR } else { 14.0 };
+            brush.scale_bar(session.drawing().unit, rect.right_bottom() - egui::vec2(16.0, up));
         }
     }
 }

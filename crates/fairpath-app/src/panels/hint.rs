@@ -1,6 +1,6 @@
 //! What is said to a person: the hint of a first start, and what did not work.
 
-use super::{BAR, MARGIN, float};
+use super::{BAR, MARGIN, float, room};
 use crate::app::App;
 use eframe::egui::{Align2, RichText, Ui, vec2};
 
@@ -22,9 +22,10 @@ pub(crate) fn show(app: &mut App, ui: &Ui) {
     let canvas = ui.max_rect().width();
     // Beside the bars at the top, where there is room, else below them.
     let below = if canvas < BESIDE { BAR } else { MARGIN };
+    let at = vec2(room(app).center().x - ui.max_rect().center().x, below);
     if let Some((text, since)) = &mut app.panels.notice {
         let since = *since.get_or_insert(now);
-        float(ui, "notice", Align2::CENTER_TOP, vec2(0.0, below), |ui| {
+        float(ui, "notice", Align2::CENTER_TOP, at, |ui| {
             ui.set_max_width(WIDEST.min(0.8 * canvas));
             ui.label(text.as_str())
         });
@@ -34,7 +35,7 @@ pub(crate) fn show(app: &mut App, ui: &Ui) {
             ui.ctx().request_repaint_after_secs(0.5);
         }
     } else if app.panels.hint {
-        float(ui, "hint", Align2::CENTER_TOP, vec2(0.0, below), |ui| {
+        float(ui, "hint", Align2::CENTER_TOP, at, |ui| {
             ui.label("Draw anywhere. Draw near a curve to change it.");
             ui.label(RichText::new("Wheel zooms, space-drag pans, ? shows all shortcuts.").weak().small());
         });

@@ -61,3 +61,24 @@ fn the_time_from_a_stroke_to_its_curve_is_noted_once() {
     assert!(harness.state().is_settled());
     assert_eq!(harness.state().pace().curves.count, 1);
 }
+
+#[test]
+fn what_comes_back_by_redo_or_after_a_crash_was_not_drawn_and_is_not_timed() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("kept.json");
+    let mut first = app_with(Box::new(FileStore::at(path.clone())));
+    first.state_mut().open_drawing(fairpath_sketch::Drawing::default());
+    draw(&mut first, &arch(500.0, 400.0, 120.0));
+    for key in [Key::Z, Key::Y] {
+        first.key_press_modifiers(Modifiers::COMMAND, key);
+        first.run_steps(2);
+    }
+    assert_eq!(session(&first).drawing().curves().len(), 1);
+    assert_eq!(first.state().pace().curves.count, 1);
+    first.state_mut().keep_now();
+    kept(&path, 1);
+
+    let second = app_with(Box::new(FileStore::at(path)));
+    assert_eq!(session(&second).drawing().curves().len(), 1);
+    assert_eq!(second.state().pace().curves.count, 0);
+}

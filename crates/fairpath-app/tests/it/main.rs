@@ -3,6 +3,7 @@
 mod documents;
 mod draw;
 mod dropped;
+mod given;
 mod hands;
 mod neaten;
 mod pictures;
