@@ -4,20 +4,16 @@ use crate::app::App;
 use crate::files::{SavedDocument, Saving};
 use eframe::egui::{Context, ViewportCommand};
 use fairpath_sketch::{Drawing, decode_drawing, encode_drawing};
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 /// A change is kept so long after it was made, seconds of the interface's clock.
 const KEEP_AFTER_S: f64 = 5.0;
 
-/// What the application knows of its document.
-#[derive(Debug)]
+/// What the application knows of its documents. Undo leads from one that was opened to the one before, so each keeps its file.
+#[derive(Debug, Default)]
 pub(crate) struct Document {
-    /// What its file is called.
-    pub(crate) name: String,
-    /// Where its file lies, once it has one; a browser does not tell.
-    path: Option<PathBuf>,
-    /// The version that its file holds.
-    saved: u64,
+    files: BTreeMap<u64, DrawingFile>,
     /// What the window was told last.
     title: String,
     /// The version that is kept against crashes, and since when a newer one waits.
@@ -25,45 +21,71 @@ pub(crate) struct Document {
     waiting: Option<f64>,
 }
 
-impl Default for Document {
-    fn default() -> Self {
-        Self { name: "drawing".into(), path: None, saved: 0, title: String::new(), kept: 0, waiting: None }
-    }
+/// The file of a drawing, or what it would be called.
+#[derive(Clone, Debug)]
+struct DrawingFile {
+    /// Its name without the extension.
+    name: String,
+    /// Where it lies, once it does; a browser does not tell.
+    path: Option<PathBuf>,
+    /// The version of the drawing that it holds.
+    saved: u64,
 }
 
-impl Document {
-    /// Takes note that its file was written.
-    pub(crate) fn saved(&mut self, name: &str, saved: SavedDocument) {
-        self.name = stem(name).into();
-        self.path = saved.path;
-        self.saved = saved.version;
-    }
-
-    /// Whether a drawing of that version is not in its file.
-    fn is_changed(&self, version: u64) -> bool {
-        version != self.saved
+impl Default for DrawingFile {
+    fn default() -> Self {
+        Self { name: "drawing".into(), path: None, saved: 0 }
     }
 }
 
 impl App {
-    /// Goes on with another drawing, which cannot be undone; an empty one is seen with a point of the screen to a unit.
+    /// What the drawing's file is called, without its extension.
+    pub(crate) fn document_name(&self) -> String {
+        self.drawing_file().name
+    }
+
+    fn drawing_file(&self) -> DrawingFile {
+        self.document.files.get(&self.session.drawing().document).cloned().unwrap_or_default()
+    }
+
+    /// Takes note that the drawing's own file was written.
+    pub(crate) fn note_saved(&mut self, name: &str, saved: SavedDocument) {
+        let SavedDocument { document, path, version } = saved;
+        self.document.files.insert(document, DrawingFile { name: stem(name).into(), path, saved: version });
+    }
+
+    /// Begins anew with another drawing, which cannot be undone; an empty one is seen with a point of the screen to a unit.
     pub fn open_drawing(&mut self, drawing: Drawing) {
         self.canvas.cancel(&mut self.session);
-        self.session.open(drawing);
+        self.session.begin_anew(drawing);
         self.view.reset();
         self.fit_view();
     }
 
-    /// Goes on with the drawing of a file.
+    /// Opens the drawing of a file, from which undo leads back.
     pub(crate) fn open(&mut self, drawing: Drawing, name: &str, path: Option<PathBuf>) {
-        self.open_drawing(drawing);
-        let saved = self.session.history().version();
-        self.document = Document { name: stem(name).into(), path, saved, ..Document::default() };
+        self.canvas.cancel(&mut self.session);
+        // A crash shall not take what was there; what was opened is in its file until it changes.
+        self.keep_now();
+        self.session.open(drawing);
+        self.view.reset();
+        self.fit_view();
+        let version = self.session.history().version();
+        self.note_saved(name, SavedDocument { document: self.session.drawing().document, path, version });
+        (self.document.kept, self.document.waiting) = (version, None);
+    }
+
+    /// Begins a new drawing, from which undo leads back.
+    pub(crate) fn begin_new(&mut self) {
+        self.canvas.cancel(&mut self.session);
+        self.keep_now();
+        self.session.begin_new();
+        self.view.reset();
     }
 
     /// Saves the drawing in its file, or if it has none yet, where a person chooses.
     pub(crate) fn save(&mut self, ctx: &Context) {
-        self.save_to(ctx, self.document.path.clone());
+        self.save_to(ctx, self.drawing_file().path);
     }
 
     /// Saves the drawing where a person chooses.
@@ -72,10 +94,11 @@ impl App {
     }
 
     fn save_to(&mut self, ctx: &Context, path: Option<PathBuf>) {
-        let version = self.session.history().version();
+        let (document, version) = (self.session.drawing().document, self.session.history().version());
         match encode_drawing(self.session.drawing()) {
             Ok(bytes) => {
-                self.files.save(ctx, &format!("{}.json", self.document.name), bytes, Saving::Document { path, version })
+                let saving = Saving::Document(SavedDocument { document, path, version });
+                self.files.save(ctx, &format!("{}.json", self.document_name()), bytes, saving)
             }
             Err(error) => self.panels.say(error.to_string()),
         }
@@ -83,18 +106,13 @@ impl App {
 
     /// Tells the window what it shows.
     pub(crate) fn set_title(&mut self, ctx: &Context) {
-        let changed = self.document.is_changed(self.session.history().version());
-        let title = format!("{}{} – Fairpath", self.document.name, if changed { "*" } else { "" });
+        let DrawingFile { name, saved, .. } = self.drawing_file();
+        let changed = saved != self.session.history().version();
+        let title = format!("{name}{} – Fairpath", if changed { "*" } else { "" });
         if title != self.document.title {
             ctx.send_viewport_cmd(ViewportCommand::Title(title.clone()));
             self.document.title = title;
         }
-    }
-
-    /// Begins a new drawing. What was there is still kept by undo.
-    pub(crate) fn clear(&mut self) {
-        self.session.select_all();
-        self.session.delete_selected();
     }
 
     /// Keeps the drawing against crashes when it has changed, and takes what an earlier run kept.

@@ -88,7 +88,7 @@ impl App {
     pub(crate) fn exported(&self, export: Export) -> Result<(String, Vec<u8>, Vec<Warning>), String> {
         self.exportable(export)?;
         let drawing = self.session.drawing();
-        let stem = &self.document.name;
+        let stem = &self.document_name();
         let (stem, extension, encoded) = match export {
             Export::Curves(format) => {
                 let encoded = encode_splines(

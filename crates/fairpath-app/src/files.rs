@@ -26,18 +26,15 @@ pub(crate) enum Purpose {
 pub(crate) enum Saving {
     /// To hold something of the drawing for another program.
     Copy,
-    /// To be the drawing's own file, holding that version of it. Nobody is asked where a file lies already.
-    Document {
-        /// Where it lies.
-        path: Option<PathBuf>,
-        /// The version that it will hold.
-        version: u64,
-    },
+    /// To be the drawing's own file. Nobody is asked where a file lies already.
+    Document(SavedDocument),
 }
 
-/// A drawing's own file after it was written.
+/// A drawing's own file, written or to be.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct SavedDocument {
+    /// Which drawing's.
+    pub(crate) document: u64,
     /// Where it lies; a browser does not tell.
     pub(crate) path: Option<PathBuf>,
     /// The version that it holds.
@@ -111,14 +108,15 @@ impl Files {
     /// Writes a file: where it lies already, or else where a person chooses.
     pub(crate) fn save(&self, ctx: &Context, name: &str, bytes: Vec<u8>, saving: Saving) {
         let (outbox, ctx) = (self.outbox.clone(), ctx.clone());
-        let (known, version) = match saving {
-            Saving::Copy => (None, None),
-            Saving::Document { path, version } => (path, Some(version)),
+        let document = match saving {
+            Saving::Copy => None,
+            Saving::Document(document) => Some(document),
         };
+        let known = document.as_ref().and_then(|document| document.path.clone());
         write(name, known, bytes, move |written| {
             let _ = outbox.send(match written {
                 Ok((name, path)) => {
-                    let document = version.map(|version| SavedDocument { path, version });
+                    let document = document.map(|document| SavedDocument { path, ..document });
                     FileEvent::Saved { name, document }
                 }
                 Err(text) => FileEvent::Failed { text },

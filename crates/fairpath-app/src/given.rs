@@ -39,7 +39,9 @@ impl GivenFile {
                     read_templates_from(bytes, &name, &TemplateOptions::default()).map(drop).map_err(Into::into)
                 }
                 FileKind::Edits => read_edits_from(bytes, &name, &ReadOptions::default()).map(drop).map_err(Into::into),
-                FileKind::Curves => import(bytes, &name, &Neatening::default()).map(drop).map_err(Into::into),
+                FileKind::Curves => {
+                    import(bytes, &name, &Drawing::default(), &Neatening::default()).map(drop).map_err(Into::into)
+                }
             }
         };
         understood?;
@@ -68,7 +70,7 @@ impl App {
             self.take_file(Purpose::Open, &first.name, &first.bytes, Some(first.path.clone()));
             rest
         } else {
-            self.clear();
+            self.begin_new();
             files
         };
         for file in others {

@@ -14,6 +14,9 @@ use std::sync::Arc;
 /// The share of what is seen that a picture to trace over takes up.
 const PICTURE_SHARE: f64 = 0.8;
 
+/// So many of the things that are to be said of a file fit on the screen.
+const MOST_TOLD: usize = 3;
+
 impl App {
     /// Does what became of dialogs, and takes files that were dropped on the window.
     pub(crate) fn read_files(&mut self, ctx: &Context) {
@@ -28,7 +31,7 @@ impl App {
                 FileEvent::Saved { name, document } => {
                     self.panels.say(format!("Saved {name}."));
                     if let Some(saved) = document {
-                        self.document.saved(&name, saved);
+                        self.note_saved(&name, saved);
                     }
                 }
                 FileEvent::Failed { text } => self.panels.say(text),
@@ -80,12 +83,12 @@ impl App {
 
     /// Strokes or curves, to be added to the drawing.
     fn take_curves(&mut self, name: &str, bytes: &[u8]) -> Result<(), String> {
-        let (curves, left_out) = import(bytes, name, self.session.neatening()).map_err(told)?;
-        let mut told = format!("{} curves from {name}.", curves.len());
-        if let Some(first) = left_out.first() {
-            told += &format!(" Not all of it: {}", first.text);
+        let imported = import(bytes, name, self.session.drawing(), self.session.neatening()).map_err(told)?;
+        let mut told = format!("{} curves from {name}.", imported.curves.len());
+        for warning in imported.told.iter().take(MOST_TOLD) {
+            told += &format!(" Note: {}.", warning.text.trim_end_matches('.'));
         }
-        self.session.add("Import", curves);
+        self.session.import(imported);
         self.fit_view();
         self.panels.say(told);
         Ok(())

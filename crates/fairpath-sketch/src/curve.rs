@@ -112,15 +112,25 @@ impl Curve {
     /// The curve elsewhere.
     #[must_use]
     pub fn moved(&self, by: Vec2) -> Self {
-        let mut moved = self.clone();
-        let shift = Similarity { translation: by, ..Similarity::IDENTITY };
-        moved.spline = self.spline.transformed(&shift);
-        moved.unpinned = self.unpinned.as_ref().map(|spline| Arc::new(spline.transformed(&shift)));
-        moved.stroke.points.iter_mut().for_each(|point| *point += by);
-        moved.pins.iter_mut().for_each(|pin| pin.point += by);
-        for piece in moved.templates.iter_mut().flat_map(|used| &mut used.pieces) {
-            piece.transform.translation += by;
+        self.transformed(&Similarity::translate(by))
+    }
+
+    /// The curve with all that belongs to it moved, turned, scaled or mirrored.
+    #[must_use]
+    pub fn transformed(&self, by: &Similarity) -> Self {
+        let mut new = self.clone();
+        new.spline = self.spline.transformed(by);
+        new.unpinned = self.unpinned.as_ref().map(|spline| Arc::new(spline.transformed(by)));
+        new.stroke.points.iter_mut().for_each(|point| *point = by.point(*point));
+        new.pins.iter_mut().for_each(|pin| pin.point = by.point(pin.point));
+        new.neatening.pixel_size *= by.scale;
+        new.report.max_deviation *= by.scale;
+        new.report.rms_deviation *= by.scale;
+        for piece in new.templates.iter_mut().flat_map(|used| &mut used.pieces) {
+            piece.transform = piece.transform.then(by);
+            piece.span = piece.span.map(|s| s * by.scale);
+            piece.turned_over ^= by.mirror;
         }
-        moved
+        new
     }
 }

@@ -20,6 +20,9 @@ pub struct Drawing {
     pub template_sets: Vec<Arc<TemplateSet>>,
     /// A picture to trace over.
     pub background: Option<Arc<Background>>,
+    /// Which drawing of a session this is a state of, since undo leads from one that was opened to the one before. It counts for nothing else: neither is
+    /// it compared nor written.
+    pub document: u64,
     named: u64,
 }
 
@@ -91,6 +94,17 @@ impl Drawing {
     /// Gives no identity that another state of the drawing has given.
     pub(crate) fn name_after(&mut self, other: &Self) {
         self.named = self.named.max(other.named);
+    }
+
+    /// The same drawing with other identities for all curves, none of which another drawing has given.
+    #[must_use]
+    pub(crate) fn named_apart(mut self, other: &Self) -> Self {
+        self.named = other.named;
+        for curve in std::mem::take(&mut self.curves) {
+            let id = self.new_id();
+            self.curves.push(Arc::new(Curve { id, ..Arc::unwrap_or_clone(curve) }));
+        }
+        self
     }
 
     /// Puts curves in the place of one, or in front if there is none of that identity.

@@ -7,6 +7,7 @@ use crate::background::Background;
 use crate::curve::{Curve, CurveId, Pin};
 use crate::drawing::Drawing;
 use crate::neatening::Neatening;
+use fairpath_curve::Similarity;
 use fairpath_fit::{Stroke, TemplateSet, Warning, measure};
 use fairpath_io::{
     Error as IoError, ReadOptions, SplineEntry, SplineFile, SplineFormat, SplineReport, StrokeFile, StrokeFormat, Unit,
@@ -180,16 +181,39 @@ pub fn decode_drawing(bytes: &[u8], name: &str) -> Result<Drawing, DrawingError>
     Ok(drawing)
 }
 
-/// The curves of a file of strokes, splines or of a whole drawing, to be added to a drawing, by the file's content, and what its reader had to say or could
-/// not use, such as strokes that are dots. Strokes are to be fitted as `neatening` says; splines come as they are. Numbers are taken as they stand: a file's
-/// unit tells the size of its pixels only.
+/// The curves of a file in the coordinates of the drawing to which they are to be added.
+#[derive(Clone, Debug)]
+pub struct Imported {
+    /// The unit of the curves: the drawing's, or if that was empty the file's.
+    pub unit: Unit,
+    /// Where y points, likewise.
+    pub y: YAxis,
+    /// The curves.
+    pub curves: Vec<Curve>,
+    /// What the file's reader had to say, what could not be used, such as strokes that are dots, and what was changed to suit the drawing.
+    pub told: Vec<Warning>,
+}
+
+/// The curves of a file of strokes, splines or of a whole drawing, by the file's content, to be added to a drawing; `name` stands for the file in messages.
+/// Strokes are to be fitted as `neatening` says; splines come as they are.
+///
+/// Lengths are converted to the drawing's unit; a pixel is a hundredth of an inch unless the file tells how many of its pixels make one. Where y points the
+/// other way the curves are turned over, so that they look as in their own file. Both are told. A drawing that holds nothing takes over the file's unit and
+/// direction of y instead, and no number changes.
 ///
 /// # Errors
 /// When the file is none of these, or faulty.
-pub fn import(bytes: &[u8], name: &str, neatening: &Neatening) -> Result<(Vec<Curve>, Vec<Warning>), DrawingError> {
+pub fn import(bytes: &[u8], name: &str, into: &Drawing, neatening: &Neatening) -> Result<Imported, DrawingError> {
+    let (file, dpi) = read_curves(bytes, name, neatening)?;
+    Ok(file.suited_to(into, dpi))
+}
+
+/// The curves of a file in its own coordinates, and how many of its pixels make an inch, if it says so.
+fn read_curves(bytes: &[u8], name: &str, neatening: &Neatening) -> Result<(Imported, Option<f64>), DrawingError> {
     if is_drawing(bytes) {
         let drawing = decode_drawing(bytes, name)?;
-        return Ok((drawing.curves().iter().map(|curve| (**curve).clone()).collect(), Vec::new()));
+        let curves = drawing.curves().iter().map(|curve| (**curve).clone()).collect();
+        return Ok((Imported { unit: drawing.unit, y: drawing.y, curves, told: Vec::new() }, None));
     }
     let options = ReadOptions::default();
     let path = std::path::Path::new(name);
@@ -200,7 +224,8 @@ pub fn import(bytes: &[u8], name: &str, neatening: &Neatening) -> Result<(Vec<Cu
         let size = file.unit.pixel_size();
         let mut told = file.warnings;
         told.extend(file.failures.into_iter().map(|failure| left_out(&failure.name, failure.code, &failure.text)));
-        return Ok((file.splines.into_iter().map(|entry| curve_of(entry, neatening, size)).collect(), told));
+        let curves = file.splines.into_iter().map(|entry| curve_of(entry, neatening, size)).collect();
+        return Ok((Imported { unit: file.unit, y: file.y, curves, told }, None));
     }
     let file = read_strokes_from(bytes, name, StrokeFormat::from_path(path), &options)?;
     let neatening = Neatening { pixel_size: file.unit.pixel_size(), ..neatening.clone() };
@@ -212,7 +237,44 @@ pub fn import(bytes: &[u8], name: &str, neatening: &Neatening) -> Result<(Vec<Cu
             Err(error) => told.push(left_out(&name, error.code().into(), &error.to_string())),
         }
     }
-    Ok((curves, told))
+    Ok((Imported { unit: file.unit, y: file.y, curves, told }, file.dpi))
+}
+
+/// Length of a unit in metres; a pixel is what the file says it is, or else a hundredth of an inch.
+fn metres(unit: Unit, dpi: Option<f64>) -> f64 {
+    match dpi.filter(|dpi| unit == Unit::Px && dpi.is_finite() && *dpi > 0.0) {
+        Some(dpi) => Unit::In.metres() / dpi,
+        None => unit.metres(),
+    }
+}
+
+impl Imported {
+    /// The same in the coordinates of a drawing, unless that holds nothing.
+    fn suited_to(self, drawing: &Drawing, dpi: Option<f64>) -> Self {
+        let Self { unit, y, mut curves, mut told } = self;
+        if (unit, y) == (drawing.unit, drawing.y) {
+            return Self { unit, y, curves, told };
+        }
+        let mut tell = |code: &str, text: String| told.push(Warning { code: code.into(), text });
+        if drawing.curves().is_empty() && drawing.background.is_none() {
+            tell("unit-taken", format!("the drawing was empty and is now in {unit}, y {}, as the file is", y.as_str()));
+            return Self { unit, y, curves, told };
+        }
+        let scale = if unit == drawing.unit { 1.0 } else { metres(unit, dpi) / metres(drawing.unit, None) };
+        let by = Similarity { mirror: y != drawing.y, scale, ..Similarity::IDENTITY };
+        if unit != drawing.unit {
+            tell("converted", format!("its {unit} are converted to {}, {scale:.6} to one", drawing.unit));
+        }
+        if by.mirror {
+            let (from, to) = (y.as_str(), drawing.y.as_str());
+            tell(
+                "turned-over",
+                format!("its y points {from}, the drawing's {to}: y has changed its sign, so that it looks the same"),
+            );
+        }
+        curves.iter_mut().for_each(|curve| *curve = curve.transformed(&by));
+        Self { unit: drawing.unit, y: drawing.y, curves, told }
+    }
 }
 
 fn left_out(name: &str, code: String, why: &str) -> Warning {
@@ -291,9 +353,84 @@ mod tests {
     #[test]
     fn a_stroke_that_is_left_out_of_an_import_is_told_of() {
         let text = b"0 0\n30 1\n60 0\n\n5 5\n5 5\n";
-        let (curves, told) = import(text, "two.txt", &Neatening::default()).unwrap();
+        let Imported { curves, told, .. } =
+            import(text, "two.txt", &Drawing::default(), &Neatening::default()).unwrap();
         assert_eq!(curves.len(), 1);
         assert!(told.iter().any(|warning| warning.code == "too-short"), "{told:?}");
+    }
+
+    /// A stroke of three points as text, in a unit and with a direction of y.
+    fn imported(head: &str, into: &Drawing) -> Imported {
+        let text = format!("{head}0 0\n30 1\n60 -20\n");
+        import(text.as_bytes(), "three.txt", into, &Neatening::default()).unwrap()
+    }
+
+    #[test]
+    fn an_import_is_converted_to_the_unit_of_the_drawing_and_tells_so() {
+        let cases = [
+            ("# unit: mm\n", 100.0 / 25.4),
+            ("# unit: in\n", 100.0),
+            ("# unit: pt\n", 100.0 / 72.0),
+            ("# unit: m\n", 100.0 / 0.0254),
+        ];
+        for (head, scale) in cases {
+            let Imported { unit, y, curves, told } = imported(head, &drawn());
+            assert_eq!((unit, y, curves.len()), (Unit::Px, YAxis::Down, 1));
+            let ends = [curves[0].stroke.points[2], curves[0].spline.end_pose().point];
+            for end in ends {
+                assert!((end - Point::new(60.0 * scale, -20.0 * scale)).hypot() < 1e-12 * scale * 60.0, "{head}{end}");
+            }
+            let own = imported(head, &Drawing::default());
+            let sizes = [&curves[0], &own.curves[0]].map(|curve| curve.neatening.pixel_size);
+            assert!((sizes[0] / sizes[1] - scale).abs() < 1e-12 * scale, "{head}{sizes:?}");
+            assert!(told.iter().any(|warning| warning.code == "converted"), "{told:?}");
+        }
+        // Pixels are what the file says they are, where it does.
+        let mut millimetres = drawn();
+        millimetres.unit = Unit::Mm;
+        for (head, size) in [("", 25.4 / 100.0), ("# dpi: 200\n", 25.4 / 200.0)] {
+            let end = imported(head, &millimetres).curves[0].stroke.points[2];
+            assert!((end - Point::new(60.0 * size, -20.0 * size)).hypot() < 1e-12, "{head}{end}");
+        }
+        // Pixels of a screen stay pixels.
+        let same = imported("# dpi: 200\n", &drawn());
+        assert_eq!(same.curves[0].stroke.points[2], Point::new(60.0, -20.0));
+        assert!(same.told.is_empty(), "{:?}", same.told);
+    }
+
+    #[test]
+    fn an_import_with_y_the_other_way_is_turned_over_and_tells_so() {
+        let Imported { y, curves, told, .. } = imported("# y: up\n", &drawn());
+        assert_eq!((y, curves[0].stroke.points[2]), (YAxis::Down, Point::new(60.0, 20.0)));
+        assert_eq!(curves[0].spline.end_pose().point, Point::new(60.0, 20.0));
+        assert!(told.iter().any(|warning| warning.code == "turned-over"), "{told:?}");
+        let mut whole = drawn();
+        whole.y = YAxis::Up;
+        let mirrored = import(&encode_drawing(&whole).unwrap(), "up.json", &drawn(), &Neatening::default()).unwrap();
+        for (new, old) in mirrored.curves.iter().zip(whole.curves()) {
+            let (a, b) = (new.spline.pose_at(20.0), old.spline.pose_at(20.0));
+            assert!((a.point - Point::new(b.point.x, -b.point.y)).hypot() < 1e-12);
+            assert!(b.curvature != 0.0 && (a.curvature + b.curvature).abs() < 1e-15);
+            assert_eq!(new.report, old.report);
+        }
+    }
+
+    #[test]
+    fn an_empty_drawing_takes_over_the_unit_of_an_import_and_undo_gives_it_back() {
+        let mut session = Session::default();
+        let import = imported("# unit: mm\n# y: up\n", session.drawing());
+        assert_eq!(import.curves[0].stroke.points[2], Point::new(60.0, -20.0));
+        assert!(import.told.iter().any(|warning| warning.code == "unit-taken"), "{:?}", import.told);
+        session.import(import);
+        assert_eq!((session.drawing().unit, session.drawing().y), (Unit::Mm, YAxis::Up));
+        session.undo();
+        assert_eq!((session.drawing().unit, session.drawing().y), (Unit::Px, YAxis::Down));
+        // A picture has its place and size in the drawing's own unit.
+        let image = vec![0, 1];
+        let picture = Background { name: "map".into(), image, at: Point::ORIGIN, width: 3.0, opacity: 0.5 };
+        let mut traced = Drawing::default();
+        traced.background = Some(Arc::new(picture));
+        assert_eq!(imported("# unit: mm\n", &traced).unit, Unit::Px);
     }
 
     #[test]

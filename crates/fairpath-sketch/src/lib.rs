@@ -45,7 +45,7 @@ pub use curve::{Curve, CurveId, Pin};
 pub use desk::{Desk, Slot, Ticket, Wish};
 pub use drawing::Drawing;
 pub use edit_list::{EditFault, EditListError, Edited, edited};
-pub use file::{DrawingError, decode_drawing, encode_drawing, import, is_drawing, splines_of, strokes_of};
+pub use file::{DrawingError, Imported, decode_drawing, encode_drawing, import, is_drawing, splines_of, strokes_of};
 pub use hand::{Hand, Over};
 pub use history::History;
 pub use job::{Answer, Fitted, Job, Trouble, run, run_encoded_job};

@@ -6,6 +6,7 @@ use crate::corrections::Correction;
 use crate::curve::{Curve, CurveId, Pin};
 use crate::desk::{Desk, Slot, Ticket, Wish};
 use crate::drawing::Drawing;
+use crate::file::Imported;
 use crate::hand::Hand;
 use crate::history::History;
 use crate::job::{Job, NOT_HELD, Trouble, measured};
@@ -39,6 +40,8 @@ pub struct Session {
     pub(crate) corrections: Vec<Correction>,
     /// How many strokes became curves of their own.
     pub(crate) strokes_drawn: u64,
+    /// How many drawings were begun or opened.
+    documents: u64,
 }
 
 impl Session {
@@ -191,13 +194,37 @@ impl Session {
         self.want_all();
     }
 
-    /// Begins anew with another drawing, which cannot be undone.
-    pub fn open(&mut self, drawing: Drawing) {
+    /// Begins anew with another drawing and no past: what was there is gone.
+    pub fn begin_anew(&mut self, mut drawing: Drawing) {
         let neatening = std::mem::take(&mut self.neatening);
-        *self = Self { neatening, desk: std::mem::take(&mut self.desk), ..Self::default() };
+        let (desk, documents) = (std::mem::take(&mut self.desk), self.documents + 1);
+        *self = Self { neatening, desk, documents, ..Self::default() };
         self.desk.clear();
+        drawing.document = documents;
         self.history = History::new(drawing);
         self.want_all();
+    }
+
+    /// Opens another drawing in the place of this one, with its unit and direction of y: a deed, from which undo leads back. Its curves get identities that
+    /// none of this one ever had. A stroke in hand is dropped, and as with undo, strokes over curves that wait to be drawn into them.
+    pub fn open(&mut self, drawing: Drawing) {
+        self.exchange("Open", drawing);
+    }
+
+    /// Puts this drawing aside for an empty one in the same unit: a deed, from which undo leads back.
+    pub fn begin_new(&mut self) {
+        let empty = Drawing::new(self.drawing().unit, self.drawing().y);
+        self.exchange("New", empty);
+    }
+
+    fn exchange(&mut self, deed: &str, drawing: Drawing) {
+        self.documents += 1;
+        let mut drawing = drawing.named_apart(self.drawing());
+        drawing.document = self.documents;
+        self.history.act(deed, |present| *present = drawing);
+        self.hand = None;
+        self.selection.clear();
+        self.turned();
     }
 
     /// Makes a French curve of the selected curve, in a set of this drawing's own, whose name is given back.
@@ -241,20 +268,24 @@ impl Session {
 
     /// Goes on with a drawing that was kept, from which undo leads back to an empty one.
     pub fn restore(&mut self, drawing: Drawing) {
-        self.open(Drawing::new(drawing.unit, drawing.y));
-        self.history.act("Restore", |empty| *empty = drawing);
-        self.want_all();
+        self.begin_anew(Drawing::new(drawing.unit, drawing.y));
+        self.exchange("Restore", drawing);
     }
 
-    /// Goes on with another drawing, from which undo leads back to this one.
-    pub fn replace(&mut self, deed: &str, drawing: Drawing) {
-        self.history.act(deed, |present| *present = drawing);
-        self.turned();
+    /// Adds the curves of a file and selects them. A drawing that was empty takes over the unit and the direction of y that they are in.
+    pub fn import(&mut self, imported: Imported) {
+        let Imported { unit, y, curves, .. } = imported;
+        self.add_to("Import", curves, |drawing| (drawing.unit, drawing.y) = (unit, y));
     }
 
-    /// Adds curves, such as those of a file, and selects them.
+    /// Adds curves and selects them.
     pub fn add(&mut self, deed: &str, curves: Vec<Curve>) {
+        self.add_to(deed, curves, |_| ());
+    }
+
+    fn add_to(&mut self, deed: &str, curves: Vec<Curve>, prepare: impl FnOnce(&mut Drawing)) {
         let ids = self.history.act(deed, |drawing| {
+            prepare(drawing);
             let put = |mut curve: Curve| {
                 curve.id = drawing.new_id();
                 let id = curve.id;

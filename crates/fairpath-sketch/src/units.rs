@@ -20,9 +20,10 @@ impl Session {
         self.desk.clear();
         self.corrections.clear();
         self.surface = None;
+        let scale = Similarity { scale: factor, ..Similarity::IDENTITY };
         self.history.act("Unit", |drawing| {
             drawing.unit = unit;
-            let curves: Vec<Curve> = drawing.curves().iter().map(|curve| curve.scaled(factor)).collect();
+            let curves: Vec<Curve> = drawing.curves().iter().map(|curve| curve.transformed(&scale)).collect();
             for curve in curves {
                 drawing.put(curve);
             }
@@ -33,27 +34,5 @@ impl Session {
         });
         self.want_all();
         factor
-    }
-}
-
-impl Curve {
-    /// The curve with all its numbers times a factor.
-    fn scaled(&self, factor: f64) -> Self {
-        let similarity = Similarity { scale: factor, ..Similarity::IDENTITY };
-        let mut scaled = self.clone();
-        scaled.spline = self.spline.transformed(&similarity);
-        scaled.unpinned = self.unpinned.as_ref().map(|spline| Arc::new(spline.transformed(&similarity)));
-        let scale = |point: &mut fairpath_curve::Point| *point = (point.to_vec2() * factor).to_point();
-        scaled.stroke.points.iter_mut().for_each(scale);
-        scaled.pins.iter_mut().for_each(|pin| scale(&mut pin.point));
-        scaled.neatening.pixel_size *= factor;
-        scaled.report.max_deviation *= factor;
-        scaled.report.rms_deviation *= factor;
-        for piece in scaled.templates.iter_mut().flat_map(|used| &mut used.pieces) {
-            piece.transform.scale *= factor;
-            piece.transform.translation *= factor;
-            piece.span = piece.span.map(|station| station * factor);
-        }
-        scaled
     }
 }

@@ -27,7 +27,7 @@ pub(crate) fn show(app: &mut App, ui: &mut Ui) {
     let ctx = ui.ctx().clone();
     menu_button(ui, Icon::Menu, "Menu", |ui| {
         if item(ui, "New", "") {
-            app.clear();
+            app.begin_new();
         }
         if item(ui, "Open…", "Ctrl+O") {
             app.files.choose(&ctx, Purpose::Open);
