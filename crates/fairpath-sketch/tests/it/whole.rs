@@ -226,3 +226,48 @@ fn the_next_curve_follows_the_selected_one_around() {
     assert_eq!(selected(&empty), None);
     assert!(encode_drawing(empty.drawing()).is_ok());
 }
+
+#[test]
+fn undo_leads_back_over_opening_a_file_and_beginning_a_new_drawing() {
+    let (mut session, _) = session_of(&[wave(), arch()]);
+    let first = session.drawing().clone();
+    let (other, _) = session_of(&[ring()]);
+    let mut other = other.drawing().clone();
+    other.unit = Unit::Mm;
+    session.open(other.clone());
+    assert_eq!(session.history().undoable(), Some("Open"));
+    assert_eq!((session.drawing().unit, session.drawing().curves().len()), (Unit::Mm, 1));
+    let opened = session.drawing().clone();
+    let id = opened.curves()[0].id;
+    assert!(first.curves().iter().all(|curve| curve.id != id), "no curve has the identity of another drawing's");
+    session.begin_new();
+    assert!(session.drawing().curves().is_empty());
+    assert_eq!(session.drawing().unit, Unit::Mm);
+    let documents = [&first, &opened, session.drawing()].map(|drawing| drawing.document);
+    assert!(documents[0] != documents[1] && documents[1] != documents[2], "{documents:?}");
+    session.undo();
+    assert!(*session.drawing() == opened && session.drawing().document == opened.document);
+    session.undo();
+    assert!(*session.drawing() == first && session.drawing().document == first.document);
+    session.redo();
+    assert_eq!(encode_drawing(session.drawing()).unwrap(), encode_drawing(&opened).unwrap());
+    while session.history().undoable().is_some() {
+        session.undo();
+    }
+    assert!(session.drawing().curves().is_empty());
+}
+
+#[test]
+fn what_was_under_way_never_lands_in_a_drawing_that_was_opened() {
+    let (mut session, ids) = session_of(&[wave()]);
+    let (other, _) = session_of(&[ring()]);
+    session.select(Some(ids[0]), false);
+    session.set_neatening(Neatening { fairness: 0.9, ..Neatening::default() });
+    let (ticket, job) = session.next_job().expect("it is to be fitted anew");
+    session.open(other.drawing().clone());
+    let opened = session.drawing().clone();
+    session.take_answer(ticket, fairpath_sketch::run(&job));
+    settle(&mut session);
+    assert!(*session.drawing() == opened);
+    assert!(session.selected().is_none() && session.take_trouble().is_none());
+}
