@@ -85,7 +85,11 @@ enum Chore {
     /// Check who depends on whom.
     Layers,
     /// Drive the application's page in a browser, alone of all judges.
-    JudgeWeb,
+    JudgeWeb {
+        /// The page for visitors instead of that for tests, which is sooner built.
+        #[arg(long)]
+        release: bool,
+    },
     /// Build the page that runs the application in a browser, and say how large it is.
     Web {
         /// For tests: soon built, and twice as large.
@@ -123,7 +127,7 @@ fn main() -> ExitCode {
         Chore::Fuzz { seconds } => fuzz::run(seconds),
         Chore::Generate { check } => generate::run(check),
         Chore::Layers => layers::run().map(|note| println!("{note}")),
-        Chore::JudgeWeb => test::judge_web(),
+        Chore::JudgeWeb { release } => test::judge_web(if release { web::Kind::Release } else { web::Kind::Quick }),
         Chore::Web { quick, serve, port, toolchain } => {
             let kind = if quick { web::Kind::Quick } else { web::Kind::Release };
             web::run(kind, toolchain, serve.then_some(port))
