@@ -1,5 +1,5 @@
-//! The page, judged by a browser: it starts, records what is drawn, finds the very curves that the command line finds, saves them, and says
-//! so where it cannot work.
+//! The page, judged by a browser: it starts, records what is drawn by mouse, finger and pen, finds the very curves that the command line finds,
+//! gives and takes files, keeps the drawing, and says so where it cannot work. How fast it is, is told.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -22,11 +22,11 @@ const DRIVE_LIMIT: Duration = Duration::from_secs(600);
 /// How many strokes of a shared file are drawn beside the example.
 const SHARED_STROKES: usize = 2;
 
-/// Builds the page for tests and drives it.
-pub(crate) fn step() -> Result<Outcome> {
+/// Builds a page and drives it.
+pub(crate) fn step(kind: Kind) -> Result<Outcome> {
     match tools_ready() {
         Ok((browser, folder)) => {
-            let page = web::build(Kind::Quick, Toolchain::Auto)?;
+            let page = web::build(kind, Toolchain::Auto)?;
             println!("{page}");
             judge(&page.folder, &browser, &folder)
         }
@@ -35,7 +35,8 @@ pub(crate) fn step() -> Result<Outcome> {
     }
 }
 
-fn tools_ready() -> Result<(PathBuf, PathBuf)> {
+/// The browser, and the folder with what drives it.
+pub(crate) fn tools_ready() -> Result<(PathBuf, PathBuf)> {
     let browser = tools::path_of(tools::chromium()?)?;
     Ok((browser, tools::node_packages("web")?))
 }
@@ -50,7 +51,8 @@ fn judge(page: &Path, browser: &Path, packages: &Path) -> Result<Outcome> {
     let broken = damaged(page, &out.join("damaged"))?;
     let (good, bad) = (Server::start(page, 0)?, Server::start(&broken, 0)?);
     let task = json!({
-        "url": good.url(), "brokenUrl": bad.url(), "browser": browser, "strokes": strokes()?, "out": out,
+        "url": good.url(), "brokenUrl": bad.url(), "browser": browser, "strokes": strokes()?, "examples": tree::root().join("examples"),
+        "out": out,
     });
     let task_file = out.join("task.json");
     fs::write(&task_file, task.to_string())?;

@@ -88,7 +88,11 @@ enum Chore {
     /// Check who depends on whom.
     Layers,
     /// Drive the application's page in a browser, alone of all judges.
-    JudgeWeb,
+    JudgeWeb {
+        /// The page for visitors instead of that for tests, which is sooner built.
+        #[arg(long)]
+        release: bool,
+    },
     /// Drive the application's window on a screen that nobody sees, alone of all judges.
     JudgeWindow,
     /// Draw hundreds of recorded strokes in one session of the window, released, and say how fast it was and how much memory it took.
@@ -137,7 +141,7 @@ fn main() -> ExitCode {
         Chore::Fuzz { seconds } => fuzz::run(seconds),
         Chore::Generate { check } => generate::run(check),
         Chore::Layers => layers::run().map(|note| println!("{note}")),
-        Chore::JudgeWeb => test::judge_web(),
+        Chore::JudgeWeb { release } => test::judge_web(if release { web::Kind::Release } else { web::Kind::Quick }),
         Chore::JudgeWindow => test::judge_window(),
         Chore::Session { on_screen, strokes } => session::run(on_screen, strokes),
         Chore::Web { quick, serve, port, toolchain } => {

@@ -1,16 +1,44 @@
 //! Pictures for the documents: of pages, taken by a browser, and of the application, drawn by the graphics device. They differ a little from one to the
 //! other, so no test compares them.
 
+use std::fs;
 use std::process::Command;
+use std::time::Duration;
 
 use anyhow::{Result, bail};
+use serde_json::json;
 
-use crate::{process, tools, tree};
+use crate::web::{Kind, Server, Toolchain};
+use crate::{judge_web, process, tools, tree, web};
+
+/// How long the browser may take for the pictures of the application's page.
+const PAGE_LIMIT: Duration = Duration::from_secs(300);
 
 /// Draws all of them anew.
 pub(crate) fn run() -> Result<()> {
     comparison()?;
-    application()
+    application()?;
+    page()
+}
+
+/// Writes `docs/web-*.png`: the application's page in a browser, led there by mouse, keys and files.
+fn page() -> Result<()> {
+    let (browser, packages) = judge_web::tools_ready()?;
+    let server = Server::start(&web::build(Kind::Quick, Toolchain::Auto)?.folder, 0)?;
+    let root = tree::root();
+    let task = json!({
+        "url": server.url(), "browser": browser, "examples": root.join("examples"), "out": root.join("docs"),
+    });
+    let file = tree::scratch("pictures")?.join("page.json");
+    fs::write(&file, task.to_string())?;
+    let mut shoot = Command::new("node");
+    shoot.arg(root.join("xtask/judges/web/pictures.mjs")).arg(file).current_dir(packages);
+    let ran = process::capture_within(&mut shoot, PAGE_LIMIT)?;
+    print!("{}", ran.text);
+    if ran.code != Some(0) {
+        bail!("the pictures of the page were not taken");
+    }
+    Ok(())
 }
 
 /// Writes `docs/app-*.png`: the application in the states that the documents tell of.

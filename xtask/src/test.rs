@@ -54,7 +54,7 @@ fn add_judges(steps: &mut Steps) {
     steps.step("judge: SVG", judges::svg);
     steps.step("judge: glTF", judges::gltf);
     steps.step("judge: page", judges::page);
-    steps.step("judge: web", judge_web::step);
+    steps.step("judge: web", || judge_web::step(web::Kind::Quick));
     steps.step("judge: window", judge_window::step);
 }
 
@@ -67,10 +67,10 @@ pub(crate) fn judge_window() -> Result<()> {
 }
 
 /// The page of the application alone.
-pub(crate) fn judge_web() -> Result<()> {
+pub(crate) fn judge_web(kind: web::Kind) -> Result<()> {
     let mut steps = Steps::default();
     steps.step("release build", release_build);
-    steps.step("judge: web", judge_web::step);
+    steps.step("judge: web", || judge_web::step(kind));
     steps.finish()
 }
 

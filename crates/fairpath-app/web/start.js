@@ -78,8 +78,9 @@ async function start() {
   while (!window.fairpath.trouble && program.frames() < 1) await frame();
   if (window.fairpath.trouble) return;
   element("curtain").hidden = true;
-  const { state, strokes, svg, saveSvg, saveText, loadText, removeText } = program;
-  Object.assign(window.fairpath, { state, strokes, svg, saveSvg, saveText, loadText, removeText });
+  const { frames, state, strokes, svg, pace, forgetPace, named, saveText, loadText, removeText } = program;
+  Object.assign(window.fairpath, { frames, state, strokes, svg, pace, forgetPace, named });
+  Object.assign(window.fairpath, { saveText, loadText, removeText });
   Object.assign(window.fairpath, { ready: true, readyMs: performance.now() });
 }
 

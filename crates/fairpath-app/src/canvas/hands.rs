@@ -3,7 +3,7 @@
 use super::Work;
 use super::comb::Handle;
 use crate::app::Tool;
-use crate::pen::{self, PenPhase, PenSample};
+use crate::pen::{self, PenKind, PenPhase, PenSample};
 use crate::view::View;
 use eframe::egui::{self, Event, Key, Modifiers, PointerButton, Pos2, Response, TouchId, TouchPhase, Ui};
 use fairpath_fit::{CurveEnd, Extension};
@@ -74,8 +74,8 @@ pub(crate) struct Hands {
     force: Option<f64>,
     /// What the pen did at its own rate and no stroke has taken yet; always empty where the events of the interface tell everything.
     pen: VecDeque<PenSample>,
-    /// Whether the stroke in hand consists of these.
-    by_pen: bool,
+    /// What draws the stroke in hand, where it consists of these.
+    by_pen: Option<PenKind>,
 }
 
 impl Hands {
@@ -93,31 +93,34 @@ impl Hands {
         let mut moved = false;
         for event in &events {
             match *event {
+                // A hand that rests beside a stylus does nothing.
+                Event::Touch { .. } if self.by_stylus() => {}
                 Event::Touch { id, phase, pos, force, .. } => {
                     self.force = force.map(f64::from);
                     self.touch(id, phase, pos, time, work.session);
                 }
-                Event::PointerButton { pos, button, pressed: true, modifiers } if over && !self.busy() => {
-                    self.press(pos, button, space, modifiers, time, work);
+                Event::PointerButton { pos, button, pressed: true, modifiers } if over => {
+                    // What is pressed may be a stylus that takes over from the hand beside it.
+                    moved |= self.follow_pen(modifiers, work);
+                    if !self.busy() {
+                        self.press(pos, button, space, modifiers, time, work);
+                    }
                 }
                 Event::PointerMoved(pos) => {
                     self.drag(pos, time, work);
                     moved = true;
                 }
-                Event::PointerButton { pos, pressed: false, .. } if self.busy() => {
-                    self.follow_pen(work.session, work.view);
+                // Which pointer went up is not told here: a pen tells it itself.
+                Event::PointerButton { pos, pressed: false, .. } if self.busy() && !self.draws_by_pen() => {
                     self.release(pos, modifiers, work);
                 }
+                Event::PointerGone if self.by_stylus() => {}
                 Event::PointerGone | Event::WindowFocused(false) => self.cancel(work.session),
                 _ => {}
             }
         }
-        if self.gesture == Gesture::Draw {
-            moved |= self.follow_pen(work.session, work.view);
-            if self.pen.pop_front().is_some_and(|sample| sample.phase == PenPhase::Cancel) {
-                self.cancel(work.session);
-            }
-        } else {
+        moved |= self.follow_pen(modifiers, work);
+        if self.gesture != Gesture::Draw {
             self.pen.clear();
         }
         if self.gesture == Gesture::Pan && moved {
@@ -127,6 +130,16 @@ impl Hands {
             work.session.watch_stroke(fresh(modifiers));
         }
         self.zoom(ui, over, work);
+    }
+
+    /// Whether the stroke in hand consists of what the pen did at its own rate.
+    fn draws_by_pen(&self) -> bool {
+        self.gesture == Gesture::Draw && self.by_pen.is_some()
+    }
+
+    /// Whether the stroke in hand is drawn by a stylus.
+    fn by_stylus(&self) -> bool {
+        self.gesture == Gesture::Draw && self.by_pen == Some(PenKind::Pen)
     }
 
     /// Drops what is in hand.
@@ -167,7 +180,7 @@ impl Hands {
                 session.begin_stroke(view.pixel_size(), shown.greedy);
                 self.gesture = Gesture::Draw;
                 self.by_pen = self.set_pen_down(session, view);
-                if !self.by_pen {
+                if self.by_pen.is_none() {
                     session.extend_stroke(place, Some(time), self.force);
                 }
             }
@@ -215,25 +228,33 @@ impl Hands {
         if self.fingers.most > 0 { FINGER * GRASP } else { GRASP }
     }
 
-    /// Begins the stroke where the pen was set down, if it is known; what it did before belongs to no stroke.
-    fn set_pen_down(&mut self, session: &mut Session, view: &View) -> bool {
+    /// Begins the stroke where the pen was set down, if it is known; what it did before belongs to no stroke. Gives what draws.
+    fn set_pen_down(&mut self, session: &mut Session, view: &View) -> Option<PenKind> {
         while let Some(sample) = self.pen.pop_front() {
             if sample.phase == PenPhase::Down {
                 extend(session, view, sample);
-                return true;
+                return Some(sample.kind);
             }
         }
-        false
+        None
     }
 
-    /// Lets the stroke follow the pen until that is lifted; whether it moved.
-    fn follow_pen(&mut self, session: &mut Session, view: &View) -> bool {
+    /// Lets the stroke follow the pen, and ends it where that is lifted or taken away; whether it moved.
+    fn follow_pen(&mut self, modifiers: Modifiers, work: &mut Work<'_>) -> bool {
         let mut moved = false;
-        while self.gesture == Gesture::Draw
-            && let Some(sample) = self.pen.pop_front_if(|sample| sample.phase == PenPhase::Move)
+        while self.draws_by_pen()
+            && let Some(sample) = self.pen.pop_front()
         {
-            extend(session, view, sample);
-            moved = true;
+            match sample.phase {
+                PenPhase::Move => {
+                    extend(work.session, work.view, sample);
+                    moved = true;
+                }
+                PenPhase::Up => self.release(Pos2::new(sample.x as f32, sample.y as f32), modifiers, work),
+                PenPhase::Cancel => self.cancel(work.session),
+                // Never within a stroke.
+                PenPhase::Down => {}
+            }
         }
         moved
     }
@@ -241,7 +262,7 @@ impl Hands {
     fn drag(&mut self, pos: Pos2, time: f64, work: &mut Work<'_>) {
         let Work { session, view, shown, .. } = work;
         match &mut self.gesture {
-            Gesture::Draw if self.by_pen => {}
+            Gesture::Draw if self.by_pen.is_some() => {}
             Gesture::Draw => session.extend_stroke(view.drawing_at(pos), Some(time), self.force),
             Gesture::Move { last, moved } => {
                 let by = pos - *last;
@@ -322,7 +343,7 @@ impl Hands {
     /// The wheel and two fingers.
     fn zoom(&mut self, ui: &Ui, over: bool, work: &mut Work<'_>) {
         let Work { session, view, .. } = work;
-        if let Some(touch) = ui.input(|i| i.multi_touch()) {
+        if let Some(touch) = ui.input(|i| i.multi_touch()).filter(|_| !self.by_stylus()) {
             self.cancel(session);
             view.pan(touch.translation_delta);
             view.zoom_at(touch.center_pos, f64::from(touch.zoom_delta));

@@ -60,7 +60,12 @@ pub(super) fn ask<T>(question: impl FnOnce(&mut App) -> T) -> Option<T> {
 
 /// How many frames were drawn.
 pub(super) fn frames() -> u64 {
-    RUNNING.with(|running| running.get()?.ctx.get().map(egui::Context::cumulative_frame_nr)).unwrap_or(0)
+    ctx().map_or(0, |ctx| ctx.cumulative_frame_nr())
+}
+
+/// The interface of the application, once it runs.
+pub(super) fn ctx() -> Option<egui::Context> {
+    RUNNING.with(|running| running.get()?.ctx.get().cloned())
 }
 
 fn canvas(id: &str) -> Option<HtmlCanvasElement> {

@@ -7,11 +7,12 @@
 //! | long work beside the page, so that it stays quick | [`PageWorker`], made of [`JobWorker`]; in the worker [`run_job`] |
 //! | keep the drawing from one visit to the next | [`PageStore`], made of [`storage`] |
 //! | save a file, open one | [`download`], [`open`] |
-//! | what the page's script asks about the drawing | [`hooks`] |
+//! | what the page's script asks about the drawing and the interface | [`hooks`] |
 
 mod app_runner;
 mod files;
 pub mod hooks;
+mod named;
 mod page_store;
 mod page_worker;
 pub mod pen;

@@ -12,13 +12,36 @@ use web_sys::{ErrorEvent, MessageEvent, Worker, WorkerOptions, WorkerType};
 
 use super::{said, trouble};
 
+/// Most times of jobs that are remembered.
+const MOST_TIMES: usize = 4096;
+
 thread_local! {
     static URL: RefCell<String> = RefCell::default();
+    static TIMES_MS: RefCell<Vec<f64>> = RefCell::default();
 }
 
 /// Where the worker's script lies.
 pub(super) fn set_url(url: String) {
     URL.set(url);
+}
+
+/// How long each job took that was answered since [`forget_times`], milliseconds, as the worker itself timed it: from the job's text to
+/// the answer's, without the way between page and worker.
+pub(super) fn times_ms() -> Vec<f64> {
+    TIMES_MS.with_borrow(Vec::clone)
+}
+
+/// Begins to time jobs anew.
+pub(super) fn forget_times() {
+    TIMES_MS.take();
+}
+
+fn note_time(ms: f64) {
+    TIMES_MS.with_borrow_mut(|times| {
+        if times.len() < MOST_TIMES {
+            times.push(ms);
+        }
+    });
 }
 
 /// Does one job; the worker's script calls this.
@@ -67,8 +90,8 @@ impl Drop for Line {
 
 /// What the worker says.
 enum Word {
-    /// The answer to the job with this number.
-    Answer(u64, String),
+    /// The answer to the job with this number, and how long that took, milliseconds.
+    Answer(u64, String, f64),
     /// It died of the job that it did, or before it did any.
     Died(String),
 }
@@ -201,16 +224,19 @@ fn hear(shared: &Weak<Shared>, generation: u32, word: Word) {
         return;
     }
     match word {
-        Word::Answer(id, answer) => shared.answered(id, answer),
+        Word::Answer(id, answer, ms) => {
+            note_time(ms);
+            shared.answered(id, answer);
+        }
         Word::Died(reason) => shared.died(&reason),
     }
 }
 
-/// Reads `[id, answer, null]` or `[null, null, reason]`, as the worker's script writes them.
+/// Reads `[id, answer, null, ms]` or `[null, null, reason]`, as the worker's script writes them.
 fn word(data: &JsValue) -> Option<Word> {
     let parts: &js_sys::Array = data.dyn_ref()?;
     if let Some(reason) = parts.get(2).as_string() {
         return Some(Word::Died(reason));
     }
-    Some(Word::Answer(parts.get(0).as_string()?.parse().ok()?, parts.get(1).as_string()?))
+    Some(Word::Answer(parts.get(0).as_string()?.parse().ok()?, parts.get(1).as_string()?, parts.get(3).as_f64()?))
 }
