@@ -262,6 +262,23 @@ fn corners_are_made_smooth_and_back() {
     assert!(make_corner(&hook, f64::NAN, 10.0).is_err());
 }
 
+/// Shares of a length that are near its ends, the corner of the road, or where other curves are cut.
+fn nearly() -> impl Strategy<Value = f64> {
+    let corner = 390.0 / 540.0;
+    let near = prop_oneof![Just(0.0), Just(1.0), Just(corner), Just(0.25), Just(0.5)];
+    let off = prop_oneof![Just(0.0), Just(1e-12), Just(1e-7), Just(1e-3), 0.0..0.05_f64];
+    prop_oneof![
+        2 => (near, off, any::<bool>()).prop_map(|(at, off, ahead)| if ahead { at + off } else { at - off }),
+        1 => 0.0..1.0_f64,
+    ]
+    .prop_map(|share: f64| share.clamp(0.0, 1.0))
+}
+
+/// How far a place is moved along an axis.
+fn pull() -> impl Strategy<Value = f64> {
+    prop_oneof![Just(0.0), -1e-9..1e-9_f64, -12.0..12.0_f64, -400.0..400.0_f64]
+}
+
 proptest! {
     #![proptest_config(ProptestConfig { cases: 40, ..ProptestConfig::default() })]
 
@@ -280,6 +297,39 @@ proptest! {
             let corners = |s: &Spline| s.joins().iter().filter(|j| **j < Continuity::G2).count();
             prop_assert!(corners(&new) <= corners(&old));
             prop_assert_eq!(new.is_closed(), closed);
+        }
+    }
+
+    /// Places near ends, corners, the seam and each other, moved by next to nothing and by more than the reach.
+    #[test]
+    fn nearly_degenerate_pulls_are_met_without_running_away(
+        closed in any::<bool>(),
+        places in prop::collection::vec((nearly(), pull(), pull()), 1..6),
+        reach in prop_oneof![Just(2.0), 8.0..90.0_f64, Just(300.0)],
+    ) {
+        let old = if closed { ring() } else { road() };
+        let moved = |&(share, x, y): &(f64, f64, f64)| {
+            let station = share * old.length();
+            Constraint::moved(station, old.point_at(station) + Vec2::new(x, y))
+        };
+        let constraints: Vec<_> = places.iter().map(moved).collect();
+        if let Ok(new) = interpolate_all(&old, &constraints, reach) {
+            let size = old.length() + places.iter().map(|(_, x, y)| x.abs() + y.abs()).sum::<f64>();
+            for constraint in &constraints {
+                prop_assert!(new.nearest(constraint.point).distance < 1e-9 * size);
+            }
+            prop_assert_eq!(new.is_closed(), closed);
+            prop_assert!(new.segments().iter().all(Segment::is_valid));
+            // A piece is no longer than eight of its chords.
+            prop_assert!(new.length() < 20.0 * size, "{} of {size}", new.length());
+            let again = interpolate_all(&old, &constraints, reach).expect("it was found before");
+            prop_assert_eq!(new.segments().iter().map(bits).collect::<Vec<_>>(), again.segments().iter().map(bits).collect::<Vec<_>>());
+        } else {
+            // Only what cannot be told apart is refused.
+            let mut shares: Vec<f64> = places.iter().map(|place| place.0).collect();
+            shares.sort_by(f64::total_cmp);
+            let near = shares.windows(2).map(|pair| pair[1] - pair[0]).fold(1.0 - shares[shares.len() - 1] + shares[0], f64::min);
+            prop_assert!(near < 1e-6 || reach > 100.0 || reach < 5.0, "{near}");
         }
     }
 }

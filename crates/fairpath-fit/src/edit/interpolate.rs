@@ -4,9 +4,10 @@
 //! Their quintic Hermite splines are three clothoids each here, which meet position, heading and curvature at both ends as well. What a
 //! constraint leaves open, heading or curvature, is chosen so that curvature varies least.
 
+use super::fairest::{Passed, fairest};
 use super::{EditError, check_length, check_station, place};
 use crate::splice::{Place, Rest, Run};
-use fairpath_curve::{Continuity, Point, Pose, Segment, Spline, hermite_g2};
+use fairpath_curve::{Continuity, Point, Pose, Segment, Spline};
 
 /// A place through which a curve shall pass.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -197,11 +198,10 @@ fn through(curve: &Spline, group: &[Knot], reach: f64) -> Option<Result<Spline, 
     };
     let start = held(before.map(Segment::end_pose), &from, first);
     let end = held(after.map(Segment::start_pose), &to, last);
-    let poses = fairest(start, group, end)?;
-    let mut new = Run::default();
-    for pair in poses.windows(2) {
-        new.segments.extend(hermite_g2(pair[0], pair[1])?);
-    }
+    let held = |pose| Passed { pose, free: [false; 2] };
+    let knots = group.iter().map(|knot| Passed { pose: knot.pose, free: knot.free });
+    let passed: Vec<Passed> = start.map(held).into_iter().chain(knots).chain(end.map(held)).collect();
+    let mut new = Run { segments: fairest(&passed)?, ..Run::default() };
     new.joins = vec![Continuity::G2; new.segments.len().checked_sub(1)?];
     let joins = [from, to].map(|end| if end.corner { Continuity::G0 } else { Continuity::G2 });
     Some(rest.with(new, joins).map(|(spline, _)| spline).map_err(EditError::from))
@@ -263,56 +263,4 @@ fn anchor(curve: &Spline, from: f64, reach: f64, ahead: bool) -> Anchor {
         (true, false) => curve.segments()[(at.segment + n - 1) % n].end_pose(),
     };
     Anchor { station, place: (!past).then_some(at), pose, corner: corner && !past }
-}
-
-/// Variation of curvature `∫ κ'² ds` of three clothoids from one pose to another, times the fifth power of their length: that makes it free of
-/// scale and keeps wide detours from winning.
-fn variation(from: &Pose, to: &Pose) -> Option<f64> {
-    let segments = hermite_g2(*from, *to)?;
-    let length: f64 = segments.iter().map(|s| s.length).sum();
-    let sum: f64 = segments.iter().map(|s| s.sharpness() * s.sharpness() * s.length).sum();
-    Some(sum * length.powi(5))
-}
-
-/// Steps of the search in heading, radians, and in curvature, turning over the distance to the neighbours.
-const FIRST_STEP: f64 = 0.25;
-const LAST_STEP: f64 = 4e-3;
-
-/// A step is taken that leaves at most this share of the variation: less would not be seen.
-const WORTHWHILE: f64 = 0.999;
-
-/// All poses from the start to the end, what is free of those between chosen by a search along one coordinate after the other.
-fn fairest(start: Option<Pose>, group: &[Knot], end: Option<Pose>) -> Option<Vec<Pose>> {
-    let lead = usize::from(start.is_some());
-    let mut poses: Vec<Pose> = start.into_iter().chain(group.iter().map(|k| k.pose)).chain(end).collect();
-    let near = |poses: &[Pose], i: usize| -> Option<f64> {
-        let before = if i > 0 { variation(&poses[i - 1], &poses[i])? } else { 0.0 };
-        let after = if i + 1 < poses.len() { variation(&poses[i], &poses[i + 1])? } else { 0.0 };
-        Some(before + after)
-    };
-    let mut step = FIRST_STEP;
-    while step > LAST_STEP {
-        let mut improved = false;
-        for (k, knot) in group.iter().enumerate() {
-            let i = lead + k;
-            let mut before = near(&poses, i).unwrap_or(f64::INFINITY);
-            let apart = poses.windows(2).map(|p| (p[1].point - p[0].point).hypot2().sqrt()).fold(0.0, f64::max);
-            for (turn, bend) in [(step, 0.0), (-step, 0.0), (0.0, step), (0.0, -step), (step, -step), (-step, step)] {
-                if (turn != 0.0 && !knot.free[0]) || (bend != 0.0 && !knot.free[1]) || !(apart > 0.0) {
-                    continue;
-                }
-                let old = poses[i];
-                poses[i].heading += turn;
-                poses[i].curvature += bend / apart;
-                match near(&poses, i) {
-                    Some(now) if now < before * WORTHWHILE => (before, improved) = (now, true),
-                    _ => poses[i] = old,
-                }
-            }
-        }
-        if !improved {
-            step *= 0.5;
-        }
-    }
-    (lead..lead + group.len()).all(|i| near(&poses, i).is_some()).then_some(poses)
 }

@@ -1,12 +1,18 @@
 //! Editing a spline by hand: extending, cutting, joining, passing through points, corners. Each edit takes splines and gives splines; whatever an
 //! edit does not reach keeps its bits.
 
+mod banded;
+#[cfg(test)]
+mod coordinate_search;
 mod corner;
 mod cut;
 mod error;
 mod extend;
+mod fairest;
+mod guesses;
 mod interpolate;
 mod join;
+mod three_clothoids;
 
 pub use corner::{make_corner, smooth_corner};
 pub use cut::cut;
