@@ -33,9 +33,9 @@ export async function takesFiles(seen) {
     const [chosen, dropped] = ["hello.json", "duck.json"].map((name) => join(task.examples, name));
     const strokesOf = (file) => JSON.parse(readFileSync(file, "utf8")).strokes;
     await chooseFile(page, /^Import/, chosen);
+    seen.imported = (await placeOf(page, new RegExp(`from ${basename(chosen)}`))).name;
     await settled(page, strokesOf(chosen).length);
     must(places(await recorded(page)) === places(strokesOf(chosen)), "the imported strokes are not those of the file");
-    seen.imported = (await placeOf(page, new RegExp(`from ${basename(chosen)}`))).name;
     await page.evaluate(([name, text]) => {
       const files = new DataTransfer();
       files.items.add(new File([text], name));

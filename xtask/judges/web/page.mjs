@@ -105,7 +105,7 @@ export const recorded = async (page) => JSON.parse(await page.evaluate(() => win
 
 /** Where something lies that is called so, or whose name matches; waits until it is there and stands still. */
 export async function placeOf(page, wanted) {
-  const isIt = ({ name }) => (wanted instanceof RegExp ? wanted.test(name) : name === wanted);
+  const isIt = ({ name }) => (wanted instanceof RegExp ? wanted.test(name) : name.trim() === wanted);
   const end = Date.now() + SHOWN_WITHIN_MS;
   for (let before = null; ; ) {
     const named = await page.evaluate(() => JSON.parse(window.fairpath.named()));

@@ -343,7 +343,10 @@ impl Hands {
     /// The wheel and two fingers.
     fn zoom(&mut self, ui: &Ui, over: bool, work: &mut Work<'_>) {
         let Work { session, view, .. } = work;
-        if let Some(touch) = ui.input(|i| i.multi_touch()).filter(|_| !self.by_stylus()) {
+        if self.by_stylus() {
+            return;
+        }
+        if let Some(touch) = ui.input(|i| i.multi_touch()) {
             self.cancel(session);
             view.pan(touch.translation_delta);
             view.zoom_at(touch.center_pos, f64::from(touch.zoom_delta));

@@ -11,13 +11,12 @@ pub(super) struct Place {
     pub(super) rect: Rect,
 }
 
-/// Everything that had a name in the last frame; nothing before the second call, since the first one begins to gather it.
+/// Everything that has a name in the frame that is shown; nothing at the first call, which begins to gather it.
 pub(super) fn places(ctx: &Context) -> Vec<Place> {
     if ctx.plugin_opt::<Named>().is_none() {
         ctx.add_plugin(Named::default());
+        ctx.request_repaint();
     }
-    // What is hidden now may be shown by the time of the next call.
-    ctx.request_repaint();
     ctx.plugin::<Named>().lock().places.clone()
 }
 
