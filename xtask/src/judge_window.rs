@@ -185,10 +185,12 @@ impl Trial {
         same_curves(&self.out, "splines.json", &pixel_size.into())
     }
 
-    /// All of the drawing as the window shows it, the pointer aside.
+    /// All of the drawing as the window shows it when it is asked to, the pointer aside.
     fn seen_whole(&self, hands: &Hands, name: &str) -> Result<Picture> {
-        hands.strike(Key::Char('0'), true)?;
         hands.move_to(ASIDE)?;
+        let part = steady(hands)?;
+        hands.strike(Key::Char('0'), true)?;
+        until(SHOWN, "all of the drawing", || Ok((!hands.picture()?.changes(&part, CANVAS).is_empty()).then_some(())))?;
         let picture = steady(hands)?;
         picture.save(&self.out.join(format!("{name}.png")))?;
         Ok(picture)
@@ -248,11 +250,11 @@ impl Trial {
             "the judge takes empty paper for the drawing, so its word is worth nothing"
         );
         self.draw(hands, PLACES.len(), stroke)?;
+        self.wait_kept(1)?;
         hands.strike(Key::Char('z'), true)?;
         self.wait_empty(hands)?;
         hands.strike(Key::Char('y'), true)?;
         until(SHOWN, "the stroke that was undone", || Ok((hands.picture()?.colourful(CANVAS) > 100).then_some(())))?;
-        self.wait_kept(1)?;
         println!("undo led from {curves} curves to none, and from one that was drawn then");
         Ok(1)
     }
@@ -303,7 +305,7 @@ fn steady(hands: &Hands) -> Result<Picture> {
         let now = hands.picture()?;
         same = if now.changes(&last, CANVAS).is_empty() { same + 1 } else { 0 };
         last = now;
-        Ok((same >= 3).then(|| last.clone()))
+        Ok((same >= 5).then(|| last.clone()))
     })
 }
 

@@ -3,7 +3,7 @@
 use std::io::IoSlice;
 
 use anyhow::{Context, Result};
-use x11rb::connection::{Connection, RequestConnection};
+use x11rb::connection::{Connection as _, RequestConnection as _};
 use x11rb::protocol::xproto::{
     AtomEnum, ClientMessageEvent, ConnectionExt as _, EventMask, ImageFormat, InputFocus, MapState, Window,
 };
@@ -106,8 +106,9 @@ impl Hands {
         request[12..16].copy_from_slice(&self.root.to_ne_bytes());
         request[24..26].copy_from_slice(&x);
         request[26..28].copy_from_slice(&y);
-        self.connection.send_request_without_reply(&[IoSlice::new(&request)], Vec::new())?;
-        self.connection.flush()?;
+        let sent = self.connection.send_request_without_reply(&[IoSlice::new(&request)], Vec::new())?;
+        // Done when this returns: what a connection sent last before it is closed can be lost, and then a button stays down.
+        sent.check()?;
         Ok(())
     }
 
