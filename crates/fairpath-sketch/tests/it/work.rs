@@ -3,8 +3,9 @@
 use crate::common::{beside, bits, corner, draw, ring, session_of, settle, shapes, spline, wave, work_once};
 use fairpath_curve::{Point, Vec2};
 use fairpath_fit::{CurveEnd, Extension, FitOptions, Stroke, fit};
+use fairpath_io::{Unit, YAxis};
 use fairpath_shape::InflateOptions;
-use fairpath_sketch::{Answer, CurveId, Drawing, Method, Neatening, Pin, Session, Trouble, run};
+use fairpath_sketch::{Answer, Curve, CurveId, Drawing, Method, Neatening, Pin, Session, Trouble, encode_drawing, run};
 use proptest::prelude::*;
 
 /// What a person may do. Numbers name a curve by its order and a place by its share.
@@ -25,6 +26,7 @@ enum Deed {
     Neaten(usize, f64),
     Delete(usize),
     Duplicate(usize),
+    OpenDrawing(usize),
     EndGesture,
     Undo,
     Redo,
@@ -52,6 +54,7 @@ fn deed() -> impl Strategy<Value = Deed> {
         3 => (which.clone(), 0.0..1.0_f64).prop_map(|(i, fairness)| Deed::Neaten(i, fairness)),
         1 => which.clone().prop_map(Deed::Delete),
         2 => which.prop_map(Deed::Duplicate),
+        1 => (0..5_usize).prop_map(Deed::OpenDrawing),
         2 => Just(Deed::EndGesture),
         3 => Just(Deed::Undo),
         2 => Just(Deed::Redo),
@@ -150,6 +153,7 @@ impl Desktop {
             Deed::Duplicate(which) => {
                 self.with_selected(which, |session| session.duplicate_selected(Vec2::new(9.0, 9.0)));
             }
+            Deed::OpenDrawing(shape) => self.session.open(stored(shape)),
             Deed::EndGesture => self.session.end_gesture(),
             Deed::Undo => self.session.undo(),
             Deed::Redo => self.session.redo(),
@@ -163,6 +167,17 @@ impl Desktop {
             }
         }
     }
+}
+
+/// A drawing as it comes from a file: in another unit, its curves counted from one and still to be fitted.
+fn stored(shape: usize) -> Drawing {
+    let mut drawing = Drawing::new(Unit::Mm, YAxis::Up);
+    for points in [&shapes()[shape], &shapes()[(shape + 1) % 5]] {
+        let id = drawing.new_id();
+        let stroke = Stroke::new(format!("stored {}", id.0), points.clone());
+        drawing.put(Curve::drawn(id, stroke, Neatening::default()).unwrap());
+    }
+    drawing
 }
 
 /// What must hold of any drawing.
@@ -216,6 +231,48 @@ proptest! {
         for state in &states {
             check_sound(state);
         }
+    }
+
+    /// Opening is a deed like others: what was there before comes back with all of its own past, whatever was done after.
+    #[test]
+    fn undo_leads_back_over_opening_a_drawing(
+        before in prop::collection::vec(deed(), 0..12),
+        shape in 0..5_usize,
+        after in prop::collection::vec(deed(), 0..12),
+    ) {
+        let bytes = |desktop: &Desktop| encode_drawing(desktop.session.drawing()).unwrap();
+        let mut desktop = Desktop::default();
+        before.iter().for_each(|deed| desktop.act(deed));
+        desktop.settle();
+        let ids: Vec<CurveId> = desktop.session.drawing().curves().iter().map(|curve| curve.id).collect();
+        let old = (bytes(&desktop), desktop.session.history().undoable().map(str::to_owned));
+        desktop.act(&Deed::OpenDrawing(shape));
+        prop_assert!(desktop.session.drawing().curves().iter().all(|curve| !ids.contains(&curve.id)));
+        prop_assert_eq!((desktop.session.drawing().unit, desktop.session.drawing().y), (Unit::Mm, YAxis::Up));
+        desktop.settle();
+        let opened = bytes(&desktop);
+        let mut deeds = 0;
+        for deed in after.iter().filter(|deed| !matches!(deed, Deed::Undo | Deed::Redo)) {
+            desktop.act(deed);
+            deeds += 1;
+        }
+        desktop.settle();
+        let end = bytes(&desktop);
+        let (mut steps, mut came_by) = (0, false);
+        while let Some(deed) = desktop.session.history().undoable().map(str::to_owned) {
+            let is_it = deed == "Open" && bytes(&desktop) == opened;
+            desktop.session.undo();
+            desktop.settle();
+            steps += 1;
+            came_by |= is_it && (bytes(&desktop), desktop.session.history().undoable().map(str::to_owned)) == old;
+        }
+        prop_assert!(came_by, "{steps} steps, {deeds} deeds");
+        prop_assert_eq!(bytes(&desktop), encode_drawing(&Drawing::default()).unwrap());
+        for _ in 0..steps {
+            desktop.session.redo();
+            desktop.settle();
+        }
+        prop_assert_eq!(bytes(&desktop), end);
     }
 
     /// A worker that dies takes nothing with it but what it was to compute.
@@ -368,6 +425,36 @@ fn undo_takes_a_waiting_stroke_back_before_anything_else() {
     session.undo();
     assert!(session.is_settled());
     assert!(session.drawing() == &before);
+}
+
+#[test]
+fn an_answer_for_a_curve_of_before_does_not_land_in_a_drawing_that_was_opened() {
+    let mut session = Session::default();
+    draw(&mut session, &wave());
+    let old = session.drawing().curves()[0].id;
+    session.select(Some(old), false);
+    let (ticket, job) = session.next_job().unwrap();
+    session.open(stored(3));
+    assert!(session.selection().is_empty());
+    let opened = session.drawing().clone();
+    session.take_answer(ticket, run(&job));
+    assert!(session.drawing() == &opened);
+    settle(&mut session);
+    session.undo();
+    assert_eq!(session.drawing().curves()[0].id, old);
+    settle(&mut session);
+    assert!(session.drawing().curves()[0].fitted);
+    let expected = fit(&Stroke::new("x", wave()), &FitOptions::default()).unwrap();
+    assert_eq!(bits(&session.drawing().curves()[0].spline), bits(&expected.spline));
+}
+
+#[test]
+fn beginning_anew_leaves_no_past() {
+    let (mut session, _) = session_of(&[wave()]);
+    session.begin_anew(stored(1));
+    assert_eq!((session.history().undoable(), session.history().redoable()), (None, None));
+    settle(&mut session);
+    assert!(session.drawing().curves().iter().all(|curve| curve.fitted));
 }
 
 #[test]
