@@ -78,7 +78,8 @@ fn show(files: Vec<GivenFile>, kept: Option<PathBuf>, pace: Option<&Path>) -> Re
             as _)
     };
     let options = eframe::NativeOptions { viewport, ..Default::default() };
-    eframe::run_native("fairpath", options, Box::new(start)).context("there is no window")?;
+    eframe::run_native("fairpath", options, Box::new(start))
+        .context("there is no window; it needs a screen of X or Wayland and a driver to draw with")?;
     if let (Some(path), Some(pace)) = (pace, last_words.take()) {
         let bytes = serde_json::to_vec(&pace).context("the pace cannot be written")?;
         fairpath_io::write_whole(path, &bytes).context("the pace cannot be written")?;
