@@ -25,12 +25,14 @@ impl GivenFile {
     pub fn read(path: &Path) -> Result<Self> {
         let shown = path.display();
         let bytes = std::fs::read(path).with_context(|| {
-            format!("{shown}: cannot be read; give a drawing, strokes, curves or a picture that is there")
+            format!(
+                "{shown}: cannot be read; give a drawing, strokes, curves or a picture that is there and may be read"
+            )
         })?;
         let understood = if is_picture(&bytes) {
             let reader = image::ImageReader::new(std::io::Cursor::new(&bytes)).with_guessed_format();
             let size = reader.map_err(|error| anyhow!(error)).and_then(|reader| Ok(reader.into_dimensions()?));
-            size.map(drop).with_context(|| format!("{shown}: cannot be shown; save the picture as a PNG and give that"))
+            size.map(drop)
         } else {
             let (name, bytes) = (shown.to_string(), &bytes[..]);
             match FileKind::of(bytes) {
@@ -44,7 +46,8 @@ impl GivenFile {
                 }
             }
         };
-        understood?;
+        understood
+            .with_context(|| format!("{shown}: cannot be shown; give a drawing, strokes, curves or a picture"))?;
         let name = path.file_name().map_or_else(|| shown.to_string(), |name| name.to_string_lossy().into_owned());
         // Where it lies must hold whatever becomes of the working folder.
         let path = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());

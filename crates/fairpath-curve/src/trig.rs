@@ -44,6 +44,8 @@ pub const SMALL_ANGLE: f64 = 1.0;
 #[must_use]
 pub fn sin_cos_small(angle: f64) -> (f64, f64) {
     let x = angle * angle;
+    // The formatter takes a minute for as deep a nest.
+    #[rustfmt::skip]
     let sin = angle
         * (1.0
             + x * (-1.0 / 6.0
@@ -53,6 +55,7 @@ pub fn sin_cos_small(angle: f64) -> (f64, f64) {
                             + x * (-1.0 / 39_916_800.0
                                 + x * (1.0 / 6_227_020_800.0
                                     + x * (-1.0 / 1_307_674_368_000.0 + x * (1.0 / 355_687_428_096_000.0)))))))));
+    #[rustfmt::skip]
     let cos = 1.0
         + x * (-0.5
             + x * (1.0 / 24.0
