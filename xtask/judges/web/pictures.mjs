@@ -64,6 +64,11 @@ const scenes = {
       await select(page, 1);
       await quiet(page);
       await keys(page, "3", "4", "5", "Control+0");
+      // A little farther away, so that no panel lies over a curve.
+      await page.mouse.move(590, 260);
+      await page.mouse.wheel(0, 90);
+      await wait(1000);
+      await page.mouse.move(590, 500);
     },
   },
   oversketch: {
