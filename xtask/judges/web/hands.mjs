@@ -1,5 +1,5 @@
 // Hands on the canvas: fingers, a pen, and gestures of the browser that would disturb them.
-import { must, openedBlank, openedWell, out, recorded, settled, state, wait, withPage } from "./page.mjs";
+import { frameShown, must, openedBlank, openedWell, out, recorded, settled, state, wait, withPage } from "./page.mjs";
 
 /** Gestures of the browser that would disturb drawing do nothing on the canvas. */
 export async function keepsGesturesOff() {
@@ -32,9 +32,6 @@ async function fingers(page) {
     lift: () => send("touchEnd", []),
   };
 }
-
-/** Waits until what was done so far has been taken by a frame. */
-const frameShown = (page) => page.evaluate(() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))));
 
 /** Waits until what is under way is done, and gives the state. */
 async function atRest(page) {

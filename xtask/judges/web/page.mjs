@@ -103,6 +103,9 @@ export async function settled(page, strokes) {
 /** The strokes as the page recorded them. */
 export const recorded = async (page) => JSON.parse(await page.evaluate(() => window.fairpath.strokes())).strokes;
 
+/** Waits until what was done so far has been taken by a frame. */
+export const frameShown = (page) => page.evaluate(() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))));
+
 /** Where something lies that is called so, or whose name matches; waits until it is there and stands still. */
 export async function placeOf(page, wanted) {
   const isIt = ({ name }) => (wanted instanceof RegExp ? wanted.test(name) : name.trim() === wanted);

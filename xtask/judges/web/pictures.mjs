@@ -3,7 +3,7 @@
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
 
-import { chooseFile, draw, inWindow, openedBlank, openedWell, out, placeOf, press, recorded, settled, state, task, wait, withPage } from "./page.mjs";
+import { chooseFile, draw, frameShown, inWindow, openedBlank, openedWell, out, placeOf, press, recorded, settled, state, task, wait, withPage } from "./page.mjs";
 
 const SIZE = [1180, 740];
 
@@ -13,13 +13,32 @@ async function opened(page) {
   await settled(page, (await state(page)).strokes);
 }
 
-/** Selects a curve as a person does, by the place where its stroke begins. */
+/** Selects a curve as a person does, by pressing where its stroke was drawn; not everywhere is the curve near enough to that. */
 async function select(page, index) {
-  await page.keyboard.press("v");
+  await keys(page, "v");
+  // What was imported is selected, all of it.
+  await page.mouse.click(110, SIZE[1] - 30);
   const { points } = (await recorded(page))[index];
-  const [place] = await inWindow(page, [points[Math.floor(points.length / 3)]]);
-  await page.mouse.click(...place);
-  await wait(300);
+  for (const place of await inWindow(page, points.filter((_, i) => i % 7 === 3))) {
+    await page.mouse.click(...place);
+    await frameShown(page);
+    if ((await named(page)).includes("Segments")) return;
+  }
+  throw new Error(`curve ${index + 1} cannot be selected`);
+}
+
+/** Presses keys, each seen by a frame of its own. */
+async function keys(page, ...pressed) {
+  for (const key of pressed) {
+    await page.keyboard.press(key);
+    await frameShown(page);
+  }
+}
+
+/** Everything of the interface that has a name. */
+async function named(page) {
+  await placeOf(page, "Menu");
+  return page.evaluate(() => JSON.parse(window.fairpath.named()).map(({ name }) => name));
 }
 
 /** Strokes of an example instead of what is there. */
@@ -30,20 +49,26 @@ async function imported(page, name, wanted = () => true) {
   await settled(page, file.strokes.length);
 }
 
-/** Out of everything's way, until nothing is said any more. */
+/** The pointer out of everything's way, and nothing said any more. */
 async function quiet(page) {
   await page.mouse.move(SIZE[0] / 2, SIZE[1] - 90);
-  await wait(7000);
+  for (let left = 60; left > 0 && (await named(page)).some((name) => / from .*json/.test(name)); left -= 1) await wait(500);
 }
 
 const scenes = {
   "first-start": { scene: opened },
   combs: {
     scene: async (page) => {
-      await opened(page);
-      await select(page, 0);
-      for (const key of ["3", "4"]) await page.keyboard.press(key);
-      await page.keyboard.press("Control+0");
+      await openedBlank(page);
+      await imported(page, "hello.json", (name) => name !== "hello" && name !== "star");
+      await select(page, 1);
+      await quiet(page);
+      await keys(page, "3", "4", "5", "Control+0");
+      // A little farther away, so that no panel lies over a curve.
+      await page.mouse.move(590, 260);
+      await page.mouse.wheel(0, 90);
+      await wait(1000);
+      await page.mouse.move(590, 500);
     },
   },
   oversketch: {
@@ -70,6 +95,7 @@ const scenes = {
       await press(page, "French curves");
       await imported(page, "hello.json", (name) => name === "letter S" || name === "bend");
       await select(page, 0);
+      await keys(page, "5", "6");
       await quiet(page);
     },
   },
@@ -78,7 +104,7 @@ const scenes = {
       await openedBlank(page);
       await imported(page, "duck.json");
       await select(page, 0);
-      await page.keyboard.press("i");
+      await keys(page, "i");
       await placeOf(page, /triangles$/);
       await quiet(page);
     },
@@ -88,7 +114,7 @@ const scenes = {
     scene: async (page) => {
       await opened(page);
       await select(page, 3);
-      await page.keyboard.press("3");
+      await keys(page, "5");
     },
   },
 };
@@ -97,7 +123,7 @@ for (const [name, { dark, scene }] of Object.entries(scenes)) {
   if (task.only && task.only !== name) continue;
   await withPage({ dark, size: SIZE }, async (page) => {
     await scene(page);
-    await wait(500);
+    await wait(1000);
     await page.screenshot({ path: out(`web-${name}.png`) });
     console.log(`wrote docs/web-${name}.png`);
   });
