@@ -17,7 +17,7 @@ use crate::{process, tools, tree};
 const WANTED_READY_MS: f64 = 3000.0;
 
 /// How long the browser may take for everything: long, since it is told here only that it hangs, and others may use the machine too.
-const DRIVE_LIMIT: Duration = Duration::from_secs(1800);
+const DRIVE_LIMIT: Duration = Duration::from_secs(900);
 
 /// How many strokes of a shared file are drawn beside the example.
 const SHARED_STROKES: usize = 2;

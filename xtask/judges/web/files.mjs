@@ -32,7 +32,7 @@ export async function takesFiles(seen) {
     await openedBlank(page);
     const [chosen, dropped] = ["hello.json", "duck.json"].map((name) => join(task.examples, name));
     const strokesOf = (file) => JSON.parse(readFileSync(file, "utf8")).strokes;
-    await chooseFile(page, /^Import/, chosen);
+    await chooseFile(page, /^Import…/, chosen);
     seen.imported = (await placeOf(page, new RegExp(`from ${basename(chosen)}`))).name;
     await settled(page, strokesOf(chosen).length);
     must(places(await recorded(page)) === places(strokesOf(chosen)), "the imported strokes are not those of the file");
@@ -47,7 +47,7 @@ export async function takesFiles(seen) {
     const all = [...strokesOf(chosen), ...strokesOf(dropped)];
     await settled(page, all.length);
     must(places(await recorded(page)) === places(all), "the strokes of a dropped file are not those of the file");
-    await chooseFile(page, /^Import/, { name: "rubbish.json", mimeType: "application/json", buffer: Buffer.from("no strokes") });
+    await chooseFile(page, /^Import…/, { name: "rubbish.json", mimeType: "application/json", buffer: Buffer.from("no strokes") });
     seen.refused = (await placeOf(page, /rubbish\.json/)).name;
     await settled(page, all.length);
     await page.screenshot({ path: out("files.png") });

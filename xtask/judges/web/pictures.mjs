@@ -45,7 +45,7 @@ async function named(page) {
 async function imported(page, name, wanted = () => true) {
   const file = JSON.parse(readFileSync(join(task.examples, name), "utf8"));
   file.strokes = file.strokes.filter((stroke) => wanted(stroke.name));
-  await chooseFile(page, /^Import/, { name, mimeType: "application/json", buffer: Buffer.from(JSON.stringify(file)) });
+  await chooseFile(page, /^Import…/, { name, mimeType: "application/json", buffer: Buffer.from(JSON.stringify(file)) });
   await settled(page, file.strokes.length);
 }
 
