@@ -20,7 +20,7 @@ fn fitted(points: impl Iterator<Item = (f64, f64)>) -> Spline {
 fn pulls(curve: &Spline, count: usize) -> Vec<Constraint> {
     let pull = |i: usize| {
         let pose = curve.pose_at(curve.length() * (i as f64 + 0.4) / count as f64);
-        let by = (6.0 + 24.0 * (1.3 * i as f64).sin().abs()) * if i % 2 == 0 { 1.0 } else { -1.0 };
+        let by = (6.0 + 24.0 * (1.3 * i as f64).sin().abs()) * if i.is_multiple_of(2) { 1.0 } else { -1.0 };
         let station = curve.length() * (i as f64 + 0.4) / count as f64;
         Constraint::moved(station, pose.point + Vec2::new(-pose.heading.sin(), pose.heading.cos()) * by)
     };
