@@ -38,7 +38,7 @@ impl Screen {
         if tools::path_of("Xvfb").is_err() {
             tools::apt("xvfb")?;
         }
-        let known = process::capture(&mut Command::new("/sbin/ldconfig").arg("-p"))?.text;
+        let known = process::capture(Command::new("/sbin/ldconfig").arg("-p"))?.text;
         for (library, package) in LIBRARIES {
             if !known.contains(library) {
                 tools::apt(package)?;
