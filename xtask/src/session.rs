@@ -21,9 +21,9 @@ const STEP: Duration = Duration::from_millis(4);
 /// From one stroke to the next.
 const BREATH: Duration = Duration::from_millis(200);
 
-/// Where strokes lie one after the other, so that no panel is in the way.
-const CELL: [i32; 2] = [400, 280];
-const CORNERS: [[i32; 2]; 4] = [[100, 110], [510, 110], [100, 390], [510, 390]];
+/// A stroke lies in an area of that size whose corner is in one of so many rows and columns, so that no panel is in the way.
+const SIZE: [i32; 2] = [400, 280];
+const CORNERS: [usize; 2] = [12, 13];
 
 /// So many strokes at the beginning and at the end are compared.
 const PART: usize = 100;
@@ -82,11 +82,16 @@ fn strokes(count: usize) -> Result<Vec<Vec<Place>>> {
     let files: Vec<Vec<Stroke>> = files.into_iter().collect::<Result<_>>()?;
     let longest = files.iter().map(Vec::len).max().unwrap_or(0);
     let by_turns = (0..longest).flat_map(|i| files.iter().filter_map(move |file| file.get(i)));
-    let areas = CORNERS.map(|[left, top]| Area { left, top, width: CELL[0], height: CELL[1] });
-    let laid = by_turns.zip(areas.into_iter().cycle()).map(|(stroke, area)| laid(stroke, area));
+    let laid = by_turns.enumerate().map(|(i, stroke)| laid(stroke, area(i)));
     let strokes: Vec<_> = laid.filter(|places| !is_tap(places)).take(count).collect();
     ensure!(strokes.len() == count, "there are but {} strokes that are no taps", strokes.len());
     Ok(strokes)
+}
+
+/// Where a stroke lies: the numbers of rows and columns have no common factor, so that all corners have their turn.
+fn area(i: usize) -> Area {
+    let [column, row] = CORNERS.map(|count| (i % count) as i32);
+    Area { left: 100 + 37 * column, top: 110 + 23 * row, width: SIZE[0], height: SIZE[1] }
 }
 
 /// Draws them, each as a curve of its own although others are near.

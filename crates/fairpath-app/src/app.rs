@@ -14,6 +14,11 @@ use eframe::egui::{self, CentralPanel, Context, Frame, Ui};
 use fairpath_curve::Point;
 use fairpath_io::Unit;
 use fairpath_sketch::{Answer, Curve, CurveId, Drawing, Neatening, Session};
+use std::time::Duration;
+use web_time::Instant;
+
+/// How long the curve of a stroke that has just ended is waited for: half a picture of a common screen, and nobody is drawing meanwhile.
+const MOMENT: Duration = Duration::from_millis(8);
 
 /// What a press on the canvas does.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -210,8 +215,28 @@ impl App {
             self.panels.say(trouble.text);
         }
         self.take_answers();
-        let drew = self.session.strokes_drawn() > before;
-        self.drawn = self.session.drawing().curves().last().map(|curve| curve.id).filter(|_| drew);
+        if self.session.strokes_drawn() > before {
+            self.drawn = self.session.drawing().curves().last().map(|curve| curve.id);
+            self.wait_for_drawn(ui.ctx());
+        }
+    }
+
+    /// Gives the curve of a stroke that has just ended a moment to come, so that it is in this picture already, which then is made anew: the screen may show the
+    /// next one much later.
+    fn wait_for_drawn(&mut self, ctx: &Context) {
+        let begun = Instant::now();
+        let is_there =
+            |app: &Self| app.drawn.and_then(|id| app.session.drawing().curve(id)).is_some_and(|curve| curve.fitted);
+        while !is_there(self) {
+            let Some(left) = MOMENT.checked_sub(begun.elapsed()) else { return };
+            let answers = self.worker.answers_within(left);
+            if answers.is_empty() {
+                return;
+            }
+            answers.into_iter().for_each(|(ticket, answer)| self.session.take_answer(ticket, answer));
+            self.take_answers();
+        }
+        ctx.request_discard("the curve of the stroke is there");
     }
 
     fn end_frame(&mut self) {
@@ -288,7 +313,10 @@ impl eframe::App for App {
             self.surface_view = frame.wgpu_render_state().map(SurfaceView::new);
         }
         self.frame(ui);
-        self.end_frame();
+        // A picture that is made anew at once is one with the next.
+        if !ui.ctx().will_discard() {
+            self.end_frame();
+        }
     }
 
     /// The page asks the application about its drawing.

@@ -41,10 +41,10 @@ pub struct PaceReport {
 }
 
 impl Pace {
-    /// A picture begins; `drawing` tells whether a stroke is in hand.
+    /// A picture begins, or is made anew before it has ended; `drawing` tells whether a stroke is in hand.
     pub(crate) fn begin(&mut self, drawing: bool) {
-        self.begun = Some(Instant::now());
-        self.drawing = drawing;
+        self.begun.get_or_insert_with(Instant::now);
+        self.drawing |= drawing;
     }
 
     /// The picture is made. `drawn` is the curve whose stroke ended in it, if one did.
@@ -53,7 +53,8 @@ impl Pace {
         if let Some(id) = drawn {
             self.awaited = Some((id, begun));
         }
-        if self.drawing {
+        // In the picture in which a stroke ends, its curve may be waited for.
+        if std::mem::take(&mut self.drawing) && drawn.is_none() {
             note(&mut self.frames_ms, begun);
         }
         if let Some((id, since)) = self.awaited {

@@ -1,6 +1,7 @@
 //! Who does the jobs: a thread on the desktop, a worker of the browser on the page, the caller itself in tests.
 
 use fairpath_sketch::{Answer, Job, Ticket, run};
+use std::time::Duration;
 
 /// Someone who does one job at a time, away from the interface.
 pub trait Worker {
@@ -9,6 +10,11 @@ pub trait Worker {
 
     /// The answers that came since the last call.
     fn answers(&mut self) -> Vec<(Ticket, Answer)>;
+
+    /// As [`answers`](Self::answers), but if there is none yet, one is waited for that long where that is possible; in a browser it is not.
+    fn answers_within(&mut self, _moment: Duration) -> Vec<(Ticket, Answer)> {
+        self.answers()
+    }
 }
 
 /// Does each job at once, where it is given: for tests, which shall not wait for anyone.
@@ -61,5 +67,9 @@ impl Worker for ThreadWorker {
 
     fn answers(&mut self) -> Vec<(Ticket, Answer)> {
         self.answers.try_iter().collect()
+    }
+
+    fn answers_within(&mut self, moment: Duration) -> Vec<(Ticket, Answer)> {
+        self.answers.recv_timeout(moment).into_iter().chain(self.answers.try_iter()).collect()
     }
 }

@@ -1,9 +1,13 @@
 //! Drawing, drawing over, dropping, undoing.
 
 use crate::hands::{app, arch, draw, empty_app, press, release, session};
-use eframe::egui::{Event, Key, Modifiers, Pos2, pos2};
+use eframe::egui::{Event, Key, Modifiers, PointerButton, Pos2, pos2};
+use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
+use fairpath_app::{App, InlineWorker, NoStore, Worker};
 use fairpath_curve::Kind;
+use fairpath_sketch::{Answer, Drawing, Job, Ticket};
+use std::time::Duration;
 
 #[test]
 fn a_first_start_shows_fitted_curves_and_a_hint() {
@@ -136,4 +140,44 @@ fn the_figures_of_the_selected_curve_are_those_of_its_report() {
     harness.run_steps(2);
     harness.get_by_label(&format!("{:.1} px", curve.spline.length()));
     harness.get_by_label(&format!("{:.2} px", curve.report.max_deviation));
+}
+
+/// Answers only whoever waits.
+#[derive(Default)]
+struct Patient(InlineWorker);
+
+impl Worker for Patient {
+    fn submit(&mut self, ticket: Ticket, job: Job) {
+        self.0.submit(ticket, job);
+    }
+
+    fn answers(&mut self) -> Vec<(Ticket, Answer)> {
+        Vec::new()
+    }
+
+    fn answers_within(&mut self, _moment: Duration) -> Vec<(Ticket, Answer)> {
+        self.0.answers()
+    }
+}
+
+#[test]
+fn a_curve_is_waited_for_in_the_picture_in_which_its_stroke_ends() {
+    let mut harness = Harness::builder().with_size([1000.0, 700.0]).build_eframe(|creation| {
+        let mut app = App::new(&creation.egui_ctx, Box::<Patient>::default(), Box::new(NoStore));
+        app.open_drawing(Drawing::default());
+        app
+    });
+    let stroke = arch(500.0, 400.0, 120.0);
+    press(&mut harness, stroke[0]);
+    for &point in &stroke[1..] {
+        harness.event(Event::PointerMoved(point));
+    }
+    harness.step();
+    assert!(session(&harness).drawing().curves().is_empty());
+    let (pos, button, modifiers) = (stroke[stroke.len() - 1], PointerButton::Primary, Modifiers::NONE);
+    harness.event(Event::PointerButton { pos, button, pressed: false, modifiers });
+    harness.step();
+    let curves = session(&harness).drawing().curves();
+    assert!(curves.len() == 1 && curves[0].fitted, "{} curves", curves.len());
+    assert_eq!(harness.state().pace().curves.count, 1);
 }
