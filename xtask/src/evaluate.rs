@@ -3,9 +3,11 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::thread;
 use std::time::Duration;
 
-use anyhow::{Context, Result, bail};
+use anyhow::{Context, Result, anyhow, bail};
 use serde_json::Value;
 
 use crate::steps::{Outcome, Steps};
@@ -63,25 +65,63 @@ pub(crate) fn add_steps(steps: &mut Steps, names: &[String]) {
         });
         return;
     }
+    let jobs: Vec<(&str, &Path)> =
+        METHODS.into_iter().flat_map(|method| files.iter().map(move |file| (method, file.as_path()))).collect();
+    let mut found = Vec::new();
+    steps.step("evaluator", || {
+        found = judge_all(&jobs)?;
+        Ok(Outcome::Passed(format!("{} methods on {} files", METHODS.len(), files.len())))
+    });
+    let mut found = found.into_iter();
     for method in METHODS {
-        add_steps_of(steps, method, &files);
+        add_steps_of(steps, method, &mut found.by_ref().take(files.len()));
     }
 }
 
-/// Adds a step for each file and prints the table of them.
-fn add_steps_of(steps: &mut Steps, method: &str, files: &[PathBuf]) {
+/// A file by its name, and what was found in it.
+type Found = (String, PathBuf, Result<Judged>);
+
+/// Judges each method on its file, as many at once as the machine has cores, and gives what was found in the order of the jobs.
+fn judge_all(jobs: &[(&str, &Path)]) -> Result<Vec<Found>> {
+    // Prepared here: two at once would prepare it in each other's way.
+    let python = tools::python()?;
+    let next = AtomicUsize::new(0);
+    let work = || {
+        let mut done = Vec::new();
+        loop {
+            let i = next.fetch_add(1, Ordering::Relaxed);
+            let Some(&(method, file)) = jobs.get(i) else { return done };
+            println!("{method}, {}", file_name(file));
+            done.push((i, (file_name(file), file.to_owned(), judge(file, method, &python))));
+        }
+    };
+    let cores = thread::available_parallelism().map_or(1, usize::from);
+    let mut found: Vec<(usize, Found)> = thread::scope(|scope| {
+        let workers: Vec<_> = (0..cores).map(|_| scope.spawn(work)).collect();
+        workers.into_iter().map(|worker| worker.join().map_err(|_| anyhow!("judging panicked"))).collect::<Result<Vec<_>>>()
+    })?
+    .into_iter()
+    .flatten()
+    .collect();
+    found.sort_by_key(|(i, _)| *i);
+    Ok(found.into_iter().map(|(_, found)| found).collect())
+}
+
+/// Adds a step for each file, which holds what was found against the limits, and prints the table of them.
+fn add_steps_of(steps: &mut Steps, method: &str, found: &mut dyn Iterator<Item = Found>) {
     let mut rows = Vec::new();
     let mut all_short = Vec::new();
     let mut growth = None;
-    for file in files {
-        let name = file_name(file);
+    for (name, file, judged) in found {
         let step = if method == limits::USUAL_METHOD { name.clone() } else { format!("{name}, {method}") };
         steps.step(format!("evaluator: {step}"), || {
-            let judged = judge(file, method)?;
+            let judged = judged?;
+            print!("{}", judged.text);
+            print_worst(&judged.rows);
             let held = limits::hold(method, &name, &judged.summary);
             rows.push(row(&name, &judged, &held));
             if name == bench::LONG {
-                growth = Some(exponent(file, &judged)?);
+                growth = Some(exponent(&file, &judged)?);
             }
             let mut faults = judged.faults;
             faults.extend(held.broken);
@@ -142,12 +182,14 @@ fn file_name(path: &Path) -> String {
 }
 
 struct Judged {
+    /// What fitter and evaluator say.
+    text: String,
     summary: Value,
     rows: Vec<Value>,
     faults: Vec<String>,
 }
 
-fn judge(strokes: &Path, method: &str) -> Result<Judged> {
+fn judge(strokes: &Path, method: &str, python: &Path) -> Result<Judged> {
     let name = file_name(strokes);
     let spline = tree::scratch("evaluate")?.join(format!("{method}-{name}"));
     let figures = spline.with_extension("figures.json");
@@ -160,8 +202,9 @@ fn judge(strokes: &Path, method: &str) -> Result<Judged> {
     if !matches!(ran.code, Some(0 | 1)) {
         bail!("{} ended with {:?}:\n{}", process::shown(&fit), ran.code, ran.text);
     }
+    let mut text = String::new();
     if ran.text.contains("panicked") {
-        println!("{}", ran.text);
+        text.push_str(&ran.text);
         faults.push("the fitter panicked".into());
     }
     for failure in read_json(&spline)?["failures"].as_array().into_iter().flatten() {
@@ -170,14 +213,14 @@ fn judge(strokes: &Path, method: &str) -> Result<Judged> {
         }
     }
 
-    let mut evaluator = Command::new(tools::python()?);
+    let mut evaluator = Command::new(python);
     evaluator.arg(tree::evaluator()).arg(strokes).arg(&spline).arg("--json").arg(&figures).arg("--quiet");
     let truth = strokes.with_file_name(name.replace(".json", "-truth.json"));
     if truth.exists() {
         evaluator.arg("--truth").arg(truth);
     }
     let ran = process::capture(&mut evaluator)?;
-    print!("{}", ran.text);
+    text.push_str(&ran.text);
     if ran.code != Some(0) {
         faults.push("the evaluator found faults".into());
     }
@@ -188,8 +231,7 @@ fn judge(strokes: &Path, method: &str) -> Result<Judged> {
             faults.push(format!("{}: {}", row["name"].as_str().unwrap_or("?"), fault.as_str().unwrap_or("?")));
         }
     }
-    print_worst(&rows);
-    Ok(Judged { summary: figures["summary"].clone(), rows, faults })
+    Ok(Judged { text, summary: figures["summary"].clone(), rows, faults })
 }
 
 /// Names the strokes that are furthest off, where any is too far: it is them that one wants to see.

@@ -19,6 +19,9 @@ const WANTED_READY_MS: f64 = 3000.0;
 /// How long the browser may take for everything: long, since it is told here only that it hangs, and others may use the machine too.
 const DRIVE_LIMIT: Duration = Duration::from_secs(900);
 
+/// With this the script begins the line of a step in which something is not as it must be.
+const FAULT: &str = "FAULT in";
+
 /// How many strokes of a shared file are drawn beside the example.
 const SHARED_STROKES: usize = 2;
 
@@ -61,7 +64,9 @@ fn judge(page: &Path, browser: &Path, packages: &Path) -> Result<Outcome> {
         process::capture_within(Command::new("node").arg(script).arg(&task_file).current_dir(packages), DRIVE_LIMIT)?;
     print!("{}", drive.text);
     if drive.code != Some(0) {
-        bail!("the page does not do in the browser what it must; pictures are in {}", out.display());
+        // The script's lines from the first fault on: what failed, in the browser's own words.
+        let faults = drive.text.find(FAULT).map_or(drive.text.as_str(), |at| &drive.text[at..]).trim();
+        bail!("the page does not do in the browser what it must (pictures are in {}): {faults}", out.display());
     }
     let seen: Value = serde_json::from_str(&fs::read_to_string(out.join("seen.json"))?)?;
     let curves = same_curves(&out, "saved.svg", &seen["state"]["pixel_size"])?;

@@ -81,6 +81,10 @@ impl Steps {
             println!("\n{short} SHORT OF GOAL: no worse than what is held, but not what is wanted");
         }
         println!("\n{passed} passed, {short} short of goal, {failed} failed, in {:.0} s", self.seconds());
+        // At the very end, where someone who sees nothing but that finds them.
+        for row in self.rows.iter().filter(|row| matches!(row.verdict, Verdict::Failed)) {
+            println!("\nFAILED: {}\n{}", row.name, row.note);
+        }
         if failed > 0 {
             bail!("{failed} of {} steps failed", self.rows.len());
         }

@@ -10,7 +10,7 @@ use crate::surface_view::SurfaceView;
 use crate::view::View;
 use crate::worker::Worker;
 use crate::{example, theme};
-use eframe::egui::{self, CentralPanel, Context, Frame, Ui};
+use eframe::egui::{self, CentralPanel, Context, Frame, Theme, Ui};
 use fairpath_curve::Point;
 use fairpath_io::Unit;
 use fairpath_sketch::{Answer, Curve, CurveId, Drawing, Neatening, Session};
@@ -132,6 +132,14 @@ impl App {
         };
         app.panels.hint = true;
         app
+    }
+
+    /// The application for a window that is cleared with [`clear_color`](eframe::App::clear_color) for each picture, as eframe's are. Then it does not
+    /// lay its paper over all of it once more, which takes most of a picture's time where software draws.
+    #[must_use]
+    pub fn in_cleared_window(mut self) -> Self {
+        self.canvas.window_is_paper = true;
+        self
     }
 
     /// The application with a thread that fits.
@@ -330,7 +338,8 @@ impl eframe::App for App {
     }
 
     fn clear_color(&self, visuals: &egui::Visuals) -> [f32; 4] {
-        visuals.panel_fill.to_normalized_gamma_f32()
+        let theme = if visuals.dark_mode { Theme::Dark } else { Theme::Light };
+        theme::Palette::of(theme).paper.to_normalized_gamma_f32()
     }
 }
 

@@ -72,12 +72,14 @@ fn show(files: Vec<GivenFile>, kept: Option<PathBuf>, pace: Option<&Path>) -> Re
         let mut app = match kept {
             Some(path) => App::with_thread(ctx, Box::new(FileStore::at(path))),
             None => App::on_desktop(ctx),
-        };
+        }
+        .in_cleared_window();
         app.open_given(ctx, &files, SIZE);
         Ok(Box::new(Window { app, drawing: false, begun: None, handed_ms: Vec::new(), apart_ms: Vec::new(), report })
             as _)
     };
-    let options = eframe::NativeOptions { viewport, ..Default::default() };
+    // Every colour of ours is flat, and noise in each of a window's pixels is much work where software draws.
+    let options = eframe::NativeOptions { viewport, dithering: false, ..Default::default() };
     eframe::run_native("fairpath", options, Box::new(start))
         .context("there is no window; it needs a screen of X or Wayland and a driver to draw with")?;
     if let (Some(path), Some(pace)) = (pace, last_words.take()) {

@@ -38,7 +38,7 @@ for (const [name, step] of steps) {
     await step();
     console.log(`${name}: as it must be, ${((Date.now() - begun) / 1000).toFixed(1)} s`);
   } catch (error) {
-    console.log(`${name}: ${error.message ?? error}`);
+    console.log(`FAULT in "${name}": ${error.message ?? error}`);
     process.exitCode = 1;
   }
 }

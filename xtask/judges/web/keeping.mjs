@@ -7,7 +7,13 @@ import { draw, must, openedBlank, openedWell, out, placeOf, settled, state, task
 function kept(page, strokes) {
   return page.evaluate(async (strokes) => {
     const end = performance.now() + 20_000;
-    const kept = async () => JSON.parse((await window.fairpath.loadText("drawing")) ?? "null")?.strokes.strokes.length === strokes;
+    const kept = async () => {
+      try {
+        return JSON.parse((await window.fairpath.loadText("drawing")) ?? "null")?.strokes.strokes.length === strokes;
+      } catch {
+        return false; // What is kept so far is no drawing.
+      }
+    };
     while (!(await kept())) {
       if (performance.now() > end) throw new Error("the drawing is not kept within 20 s");
       await new Promise((resolve) => setTimeout(resolve, 200));

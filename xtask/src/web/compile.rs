@@ -16,7 +16,9 @@ pub(super) fn wasm(profile: &str, toolchain: Toolchain) -> Result<PathBuf> {
     println!("compiling the page by {}, profile {profile}", compiler.name);
     let folder = tree::target_folder()?.join("web-build");
     let mut cargo = Command::new(&compiler.cargo);
-    cargo.args(["build", "--package", "fairpath-app", "--lib", "--locked", "--target", TARGET, "--profile", profile]);
+    // Only here is the library a program of its own; everywhere else it would be linked once more for nobody.
+    cargo.args(["rustc", "--package", "fairpath-app", "--lib", "--crate-type", "cdylib"]);
+    cargo.args(["--locked", "--target", TARGET, "--profile", profile]);
     cargo.current_dir(tree::root()).arg("--target-dir").arg(&folder);
     // Flags that the user set for other programs know nothing of this machine.
     cargo.env_remove("RUSTFLAGS").env_remove("CARGO_ENCODED_RUSTFLAGS").envs(compiler.variables);

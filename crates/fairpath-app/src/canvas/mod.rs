@@ -33,6 +33,8 @@ pub(crate) struct Canvas {
     backdrop: Backdrop,
     /// The place of a curve under the pointer, here or in the plot: the curve and a station.
     pub(crate) hovered: Option<(CurveId, f64)>,
+    /// Whoever shows the window clears it with the paper's colour already.
+    pub(crate) window_is_paper: bool,
 }
 
 /// What hands on the canvas work with.
@@ -88,7 +90,9 @@ impl Canvas {
         let palette = Palette::of(ui.ctx().theme());
         let painter = ui.painter_at(rect);
         let brush = Brush { painter: &painter, view, shown, palette };
-        painter.rect_filled(rect, 0.0, palette.paper);
+        if !self.window_is_paper {
+            painter.rect_filled(rect, 0.0, palette.paper);
+        }
         self.backdrop.paint(ui.ctx(), &painter, view, session.drawing().background.as_ref());
         if shown.grid {
             brush.grid(ui.ctx().pixels_per_point());

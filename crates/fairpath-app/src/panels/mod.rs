@@ -89,11 +89,16 @@ pub(crate) fn show(app: &mut App, ui: &mut Ui) {
 
 /// Something that floats over the canvas, held at a corner or a side of it.
 fn float<R>(ui: &Ui, name: &str, at: Align2, offset: Vec2, add: impl FnOnce(&mut Ui) -> R) -> InnerResponse<R> {
-    let canvas = ui.max_rect();
-    Area::new(Id::unique(name))
-        .pivot(at)
-        .fixed_pos(at.pos_in_rect(&canvas) + offset)
-        .constrain_to(canvas)
-        .order(egui::Order::Middle)
-        .show(ui.ctx(), |ui| theme::floating(ui.style()).show(ui, add).inner)
+    float_in(ui, Area::new(Id::unique(name)).pivot(at).fixed_pos(at.pos_in_rect(&ui.max_rect()) + offset), add)
+}
+
+/// As [`float`], but it can be dragged elsewhere by whatever in it takes no drags itself.
+fn float_loose<R>(ui: &Ui, name: &str, at: Align2, offset: Vec2, add: impl FnOnce(&mut Ui) -> R) -> InnerResponse<R> {
+    let begin = at.pos_in_rect(&ui.max_rect()) + offset;
+    float_in(ui, Area::new(Id::unique(name)).pivot(at).default_pos(begin).movable(true), add)
+}
+
+fn float_in<R>(ui: &Ui, area: Area, add: impl FnOnce(&mut Ui) -> R) -> InnerResponse<R> {
+    let area = area.constrain_to(ui.max_rect()).order(egui::Order::Middle);
+    area.show(ui.ctx(), |ui| theme::floating(ui.style()).show(ui, add).inner)
 }

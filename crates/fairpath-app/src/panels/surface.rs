@@ -1,10 +1,10 @@
-//! The surface of a closed curve in a small view of its own, which can be turned.
+//! The surface of a closed curve in a small view of its own, in which it can be turned and which can be dragged aside.
 
 use super::widgets::icon_button;
-use super::{MARGIN, float};
+use super::{MARGIN, float_loose};
 use crate::app::App;
 use crate::icons::Icon;
-use eframe::egui::{Align2, Ui, vec2};
+use eframe::egui::{Align2, Label, RichText, Ui, vec2};
 use fairpath_render::{Finish, Zebra};
 use fairpath_shape::InflateOptions;
 
@@ -25,11 +25,13 @@ pub(crate) fn show(app: &mut App, ui: &Ui) {
     };
     let mut keep = true;
     let mut zebra = app.panels.zebra;
-    let shown = float(ui, "surface", Align2::LEFT_BOTTOM, vec2(MARGIN + BESIDE, -MARGIN - ABOVE), |ui| {
+    let shown = float_loose(ui, "surface", Align2::LEFT_BOTTOM, vec2(MARGIN + BESIDE, -MARGIN - ABOVE), |ui| {
         ui.set_width(SIDE);
         ui.horizontal(|ui| {
-            ui.label("Surface");
-            ui.weak(format!("{} triangles", mesh.triangles.len()));
+            // Not to be selected as text: here the view is taken hold of when it lies in the way.
+            ui.add(Label::new("Surface").selectable(false));
+            let triangles = RichText::new(format!("{} triangles", mesh.triangles.len())).weak();
+            ui.add(Label::new(triangles).selectable(false));
             ui.with_layout(eframe::egui::Layout::right_to_left(eframe::egui::Align::Center), |ui| {
                 keep = !icon_button(ui, Icon::X, "Close the surface", "", false, true).clicked();
                 if icon_button(ui, Icon::Rainbow, "Zebra stripes", "", zebra, true).clicked() {

@@ -43,10 +43,13 @@ pub async fn start(canvas_id: String, worker_url: String) -> Result<(), JsError>
             // Before eframe's own listeners, one of which draws a frame when the pen is set down.
             pen::listen(&canvas, &creation.egui_ctx).map_err(|error| said(&error))?;
             let ctx = &creation.egui_ctx;
-            Ok(Box::new(App::new(ctx, Box::new(PageWorker::new(ctx)), Box::new(PageStore::new(ctx)))))
+            let app = App::new(ctx, Box::new(PageWorker::new(ctx)), Box::new(PageStore::new(ctx)));
+            Ok(Box::new(app.in_cleared_window()))
         })
     };
-    let started = runner.start(canvas, eframe::WebOptions::default(), creator).await;
+    // Every colour of ours is flat, and noise in each of a window's pixels is much work where software draws.
+    let options = eframe::WebOptions { dithering: false, ..Default::default() };
+    let started = runner.start(canvas, options, creator).await;
     started.map_err(|error| JsError::new(&said(&error)))
 }
 

@@ -3,8 +3,8 @@
 //!
 //! Drivers draw edges a little differently, so a pixel may differ slightly, but hardly any may differ more.
 
-use crate::hands::{arch, draw, press};
-use eframe::egui::{Event, Key, Modifiers, Pos2, Theme, pos2};
+use crate::hands::{arch, drag, draw, press};
+use eframe::egui::{Event, Key, Modifiers, Pos2, Theme, pos2, vec2};
 use egui_kittest::{Harness, SnapshotOptions};
 use fairpath_app::{App, InlineWorker, NoStore};
 use fairpath_io::{ReadOptions, read_strokes};
@@ -123,6 +123,25 @@ fn inflated_surface() {
     select(&mut app, 0);
     keys(&mut app, &[Key::I]);
     compare(&mut app, "surface");
+}
+
+#[test]
+fn a_surface_is_dragged_aside() {
+    use egui_kittest::kittest::Queryable;
+    let mut app = window(Theme::Light, [800.0, 560.0]);
+    open(&mut app, "duck.json", &["duck"], &Neatening::default());
+    select(&mut app, 0);
+    keys(&mut app, &[Key::I]);
+    app.run_steps(3);
+    let title = |app: &Harness<'_, App>| app.get_by_label("Surface").rect().center();
+    let (begin, by) = (title(&app), vec2(180.0, -120.0));
+    drag(&mut app, begin, begin + by);
+    let end = title(&app);
+    assert!((end - begin - by).length() < 1.0, "from {begin} to {end}");
+    // No further than the canvas.
+    drag(&mut app, end, pos2(-300.0, 900.0));
+    let held = title(&app);
+    assert!(held.x > 0.0 && held.y < 560.0, "{held}");
 }
 
 #[test]
