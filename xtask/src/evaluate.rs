@@ -98,7 +98,10 @@ fn judge_all(jobs: &[(&str, &Path)]) -> Result<Vec<Found>> {
     let cores = thread::available_parallelism().map_or(1, usize::from);
     let mut found: Vec<(usize, Found)> = thread::scope(|scope| {
         let workers: Vec<_> = (0..cores).map(|_| scope.spawn(work)).collect();
-        workers.into_iter().map(|worker| worker.join().map_err(|_| anyhow!("judging panicked"))).collect::<Result<Vec<_>>>()
+        workers
+            .into_iter()
+            .map(|worker| worker.join().map_err(|_| anyhow!("judging panicked")))
+            .collect::<Result<Vec<_>>>()
     })?
     .into_iter()
     .flatten()

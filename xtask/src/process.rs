@@ -14,6 +14,10 @@ use crate::tree;
 pub(crate) fn cargo(args: &[&str]) -> Command {
     let mut command = Command::new(std::env::var("CARGO").unwrap_or_else(|_| "cargo".into()));
     command.args(args).current_dir(tree::root());
+    if tree::on_build_server() {
+        // Nothing is built there twice.
+        command.env("CARGO_INCREMENTAL", "0");
+    }
     command
 }
 

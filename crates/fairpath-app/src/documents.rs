@@ -28,7 +28,7 @@ struct DrawingFile {
     name: String,
     /// Where it lies, once it does; a browser does not tell.
     path: Option<PathBuf>,
-    /// The version of the drawing that it holds.
+    /// The state of the drawing that it holds, a revision of the history.
     saved: u64,
 }
 
@@ -50,8 +50,8 @@ impl App {
 
     /// Takes note that the drawing's own file was written.
     pub(crate) fn note_saved(&mut self, name: &str, saved: SavedDocument) {
-        let SavedDocument { document, path, version } = saved;
-        self.document.files.insert(document, DrawingFile { name: stem(name).into(), path, saved: version });
+        let SavedDocument { document, path, revision } = saved;
+        self.document.files.insert(document, DrawingFile { name: stem(name).into(), path, saved: revision });
     }
 
     /// Begins anew with another drawing, which cannot be undone; an empty one is seen with a point of the screen to a unit.
@@ -70,8 +70,9 @@ impl App {
         self.session.open(drawing);
         self.view.reset();
         self.fit_view();
-        let version = self.session.history().version();
-        self.note_saved(name, SavedDocument { document: self.session.drawing().document, path, version });
+        let history = self.session.history();
+        let (version, revision) = (history.version(), history.revision());
+        self.note_saved(name, SavedDocument { document: self.session.drawing().document, path, revision });
         (self.document.kept, self.document.waiting) = (version, None);
     }
 
@@ -94,20 +95,26 @@ impl App {
     }
 
     fn save_to(&mut self, ctx: &Context, path: Option<PathBuf>) {
-        let (document, version) = (self.session.drawing().document, self.session.history().version());
+        let (document, revision) = (self.session.drawing().document, self.session.history().revision());
         match encode_drawing(self.session.drawing()) {
             Ok(bytes) => {
-                let saving = Saving::Document(SavedDocument { document, path, version });
+                let saving = Saving::Document(SavedDocument { document, path, revision });
                 self.files.save(ctx, &format!("{}.json", self.document_name()), bytes, saving)
             }
             Err(error) => self.panels.say(error.to_string()),
         }
     }
 
+    /// What the window's title is: the drawing's name, with a star while its file does not hold what is shown.
+    #[must_use]
+    pub fn title(&self) -> &str {
+        &self.document.title
+    }
+
     /// Tells the window what it shows.
     pub(crate) fn set_title(&mut self, ctx: &Context) {
         let DrawingFile { name, saved, .. } = self.drawing_file();
-        let changed = saved != self.session.history().version();
+        let changed = saved != self.session.history().revision();
         let title = format!("{name}{} – Fairpath", if changed { "*" } else { "" });
         if title != self.document.title {
             ctx.send_viewport_cmd(ViewportCommand::Title(title.clone()));

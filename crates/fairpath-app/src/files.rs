@@ -37,8 +37,8 @@ pub(crate) struct SavedDocument {
     pub(crate) document: u64,
     /// Where it lies; a browser does not tell.
     pub(crate) path: Option<PathBuf>,
-    /// The version that it holds.
-    pub(crate) version: u64,
+    /// The state that it holds, by the number that the history gives it.
+    pub(crate) revision: u64,
 }
 
 /// What became of a dialog.

@@ -14,6 +14,7 @@ const DEEPEST: usize = 1000;
 #[derive(Clone, Debug)]
 struct State {
     drawing: Drawing,
+    revision: u64,
     /// What a person would call it, such as `Draw`.
     deed: String,
 }
@@ -26,6 +27,8 @@ pub struct History {
     future: Vec<State>,
     /// Grows with every change, undone ones too.
     version: u64,
+    /// Which state the present is: undoing leads back to the number that a state had.
+    revision: u64,
     /// Deeds of one gesture, such as the moves of a slider, are one step; this names the gesture that goes on.
     gesture: Option<String>,
 }
@@ -47,6 +50,12 @@ impl History {
     #[must_use]
     pub fn version(&self) -> u64 {
         self.version
+    }
+
+    /// Tells states of the drawing apart: after a deed was undone it is what it was before, so whoever saved that state knows that nothing differs.
+    #[must_use]
+    pub fn revision(&self) -> u64 {
+        self.revision
     }
 
     /// Does something to the drawing that can be undone.
@@ -77,15 +86,19 @@ impl History {
     /// Changes the present without a step of its own: for what follows from the last deed, such as the curve that a stroke becomes.
     pub fn amend<R>(&mut self, change: impl FnOnce(&mut Drawing) -> R) -> R {
         self.version += 1;
+        self.revision = self.version;
         change(&mut self.present)
     }
 
     /// Puts a curve in the place of a certain state of it, wherever in past, present and future that is: for what a fit found, which is the same then
     /// as now.
     pub(crate) fn supersede(&mut self, old: &Arc<Curve>, new: Curve) {
-        self.version += 1;
         let new = Arc::new(new);
         let is_present = self.present.supersede(old, &new);
+        self.version += 1;
+        if is_present {
+            self.revision = self.version;
+        }
         // From when it came to when it went, a state of a curve is in every drawing.
         for states in [&mut self.past, &mut self.future] {
             let mut seen = is_present;
@@ -93,6 +106,10 @@ impl History {
                 let has_it = state.drawing.supersede(old, &new);
                 if seen && !has_it {
                     break;
+                }
+                if has_it {
+                    self.version += 1;
+                    state.revision = self.version;
                 }
                 seen = has_it;
             }
@@ -104,7 +121,8 @@ impl History {
         let result = change(&mut self.present);
         if self.present != before {
             self.version += 1;
-            self.past.push(State { drawing: before, deed: deed.to_owned() });
+            let revision = std::mem::replace(&mut self.revision, self.version);
+            self.past.push(State { drawing: before, revision, deed: deed.to_owned() });
             if self.past.len() > DEEPEST {
                 self.past.remove(0);
             }
@@ -127,27 +145,28 @@ impl History {
 
     /// Undoes the last deed; false if there is none.
     pub fn undo(&mut self) -> bool {
-        Self::turn(&mut self.present, &mut self.past, &mut self.future, &mut self.version, &mut self.gesture)
+        let Some(state) = self.past.pop() else { return false };
+        let undone = self.turn(state);
+        self.future.push(undone);
+        true
     }
 
     /// Does the last undone deed again; false if there is none.
     pub fn redo(&mut self) -> bool {
-        Self::turn(&mut self.present, &mut self.future, &mut self.past, &mut self.version, &mut self.gesture)
+        let Some(state) = self.future.pop() else { return false };
+        let done = self.turn(state);
+        self.past.push(done);
+        true
     }
 
-    fn turn(
-        present: &mut Drawing,
-        from: &mut Vec<State>,
-        to: &mut Vec<State>,
-        version: &mut u64,
-        gesture: &mut Option<String>,
-    ) -> bool {
-        let Some(State { mut drawing, deed }) = from.pop() else { return false };
+    /// Makes a state the present; what was the present, with the deed that lies between the two.
+    fn turn(&mut self, mut state: State) -> State {
         // Identities are never given twice, not even when the curve that had one was undone.
-        drawing.name_after(present);
-        to.push(State { drawing: std::mem::replace(present, drawing), deed });
-        *version += 1;
-        *gesture = None;
-        true
+        state.drawing.name_after(&self.present);
+        std::mem::swap(&mut self.present, &mut state.drawing);
+        std::mem::swap(&mut self.revision, &mut state.revision);
+        self.version += 1;
+        self.gesture = None;
+        state
     }
 }

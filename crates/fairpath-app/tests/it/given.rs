@@ -63,6 +63,24 @@ fn a_drawing_that_is_given_is_gone_on_with_and_undo_leads_to_the_last_one() {
 }
 
 #[test]
+fn the_title_tells_whether_the_file_differs_from_what_is_shown() {
+    let folder = tempfile::tempdir().unwrap();
+    let given = folder.path().join("given.json");
+    let first = app_on(&[&example("spiral.csv")], &folder.path().join("kept.json"));
+    fs::write(&given, encode_drawing(session(&first).drawing()).unwrap()).unwrap();
+    let mut app = app_on(&[&given], &folder.path().join("other.json"));
+    assert_eq!(app.state().title(), "given – Fairpath");
+    draw(&mut app, &arch(300.0, 300.0, 80.0));
+    assert_eq!(app.state().title(), "given* – Fairpath");
+    for (key, title) in [(Key::Z, "given – Fairpath"), (Key::Y, "given* – Fairpath"), (Key::Z, "given – Fairpath")]
+    {
+        app.key_press_modifiers(Modifiers::COMMAND, key);
+        app.run_steps(2);
+        assert_eq!(app.state().title(), title, "after {key:?}");
+    }
+}
+
+#[test]
 fn a_picture_that_is_given_is_traced_over() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("picture.png");
