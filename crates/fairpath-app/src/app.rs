@@ -17,8 +17,8 @@ use fairpath_sketch::{Answer, Curve, CurveId, Drawing, Neatening, Session};
 use std::time::Duration;
 use web_time::Instant;
 
-/// How long the curve of a stroke that has just ended is waited for: half a picture of a common screen, and nobody is drawing meanwhile.
-const MOMENT: Duration = Duration::from_millis(8);
+/// How long the curve of a stroke that has just ended is waited for: a picture of a common screen, and nobody is drawing meanwhile.
+const MOMENT: Duration = Duration::from_millis(16);
 
 /// What a press on the canvas does.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -97,8 +97,8 @@ pub struct App {
     pub(crate) shown: Shown,
     pub(crate) panels: Panels,
     pace: Pace,
-    /// The curve whose stroke ended in this frame.
-    drawn: Option<CurveId>,
+    /// The curves whose strokes ended in this frame: mostly one, but two strokes may be quicker than a slow screen.
+    drawn: Vec<CurveId>,
     pub(crate) document: Document,
     pub(crate) files: Files,
     pub(crate) store: Box<dyn Store>,
@@ -123,7 +123,7 @@ impl App {
             shown: Shown::default(),
             panels: Panels::default(),
             pace: Pace::default(),
-            drawn: None,
+            drawn: Vec::new(),
             document: Document::default(),
             files: Files::default(),
             store,
@@ -223,8 +223,10 @@ impl App {
             self.panels.say(trouble.text);
         }
         self.take_answers();
-        if self.session.strokes_drawn() > before {
-            self.drawn = self.session.drawing().curves().last().map(|curve| curve.id);
+        let drawn = self.session.strokes_drawn().saturating_sub(before);
+        if drawn > 0 {
+            let newest = self.session.drawing().curves().iter().rev().take(drawn as usize);
+            self.drawn.extend(newest.map(|curve| curve.id));
             self.wait_for_drawn(ui.ctx());
         }
     }
@@ -233,9 +235,9 @@ impl App {
     /// next one much later.
     fn wait_for_drawn(&mut self, ctx: &Context) {
         let begun = Instant::now();
-        let is_there =
-            |app: &Self| app.drawn.and_then(|id| app.session.drawing().curve(id)).is_some_and(|curve| curve.fitted);
-        while !is_there(self) {
+        let are_there =
+            |app: &Self| app.drawn.iter().all(|id| app.session.drawing().curve(*id).is_none_or(|curve| curve.fitted));
+        while !are_there(self) {
             let Some(left) = MOMENT.checked_sub(begun.elapsed()) else { return };
             let answers = self.worker.answers_within(left);
             if answers.is_empty() {
@@ -248,7 +250,7 @@ impl App {
     }
 
     fn end_frame(&mut self) {
-        self.pace.end(self.drawn.take(), self.session.drawing());
+        self.pace.end(&std::mem::take(&mut self.drawn), self.session.drawing());
     }
 
     /// The work on the drawing.

@@ -12,8 +12,8 @@ const MOST: usize = 1 << 17;
 pub(crate) struct Pace {
     begun: Option<Instant>,
     drawing: bool,
-    /// When the pen was lifted that drew a curve which is not there yet.
-    awaited: Option<(CurveId, Instant)>,
+    /// Curves that are not there yet, and when the pen that drew them was lifted.
+    awaited: Vec<(CurveId, Instant)>,
     curves_ms: Vec<f64>,
     frames_ms: Vec<f64>,
 }
@@ -47,26 +47,23 @@ impl Pace {
         self.drawing |= drawing;
     }
 
-    /// The picture is made. `drawn` is the curve whose stroke ended in it, if one did.
-    pub(crate) fn end(&mut self, drawn: Option<CurveId>, drawing: &Drawing) {
+    /// The picture is made. `drawn` are the curves whose strokes ended in it.
+    pub(crate) fn end(&mut self, drawn: &[CurveId], drawing: &Drawing) {
         let Some(begun) = self.begun.take() else { return };
-        if let Some(id) = drawn {
-            self.awaited = Some((id, begun));
-        }
+        self.awaited.extend(drawn.iter().map(|&id| (id, begun)));
         // In the picture in which a stroke ends, its curve may be waited for.
-        if std::mem::take(&mut self.drawing) && drawn.is_none() {
+        if std::mem::take(&mut self.drawing) && drawn.is_empty() {
             note(&mut self.frames_ms, begun);
         }
-        if let Some((id, since)) = self.awaited {
-            match drawing.curve(id) {
-                Some(curve) if !curve.fitted => {}
-                Some(_) => {
-                    note(&mut self.curves_ms, since);
-                    self.awaited = None;
-                }
-                None => self.awaited = None,
+        let curves_ms = &mut self.curves_ms;
+        self.awaited.retain(|&(id, since)| match drawing.curve(id) {
+            Some(curve) if curve.fitted => {
+                note(curves_ms, since);
+                false
             }
-        }
+            Some(_) => true,
+            None => false,
+        });
     }
 
     /// Each time from the last point of a stroke to its curve in the picture.

@@ -6,6 +6,7 @@ mod grid;
 mod hands;
 mod paint;
 mod shapes;
+mod still;
 mod templates;
 
 pub(crate) use comb::suitable as suitable_comb;
@@ -18,8 +19,7 @@ use backdrop::Backdrop;
 use eframe::egui::{self, CursorIcon, Rect, Role, Sense, Ui, WidgetInfo};
 use fairpath_sketch::{CurveId, Session};
 use hands::Hands;
-use paint::Brush;
-use shapes::Shapes;
+use paint::{Brush, Made};
 
 /// From this width on the scale has room beside the bar below, points; else it is so far up.
 const BESIDE_THE_BAR: f32 = 960.0;
@@ -29,7 +29,7 @@ const ABOVE_THE_BAR: f32 = 76.0;
 #[derive(Default)]
 pub(crate) struct Canvas {
     hands: Hands,
-    shapes: Shapes,
+    made: Made,
     backdrop: Backdrop,
     /// The place of a curve under the pointer, here or in the plot: the curve and a station.
     pub(crate) hovered: Option<(CurveId, f64)>,
@@ -98,7 +98,7 @@ impl Canvas {
             brush.grid(ui.ctx().pixels_per_point());
         }
         let hovered = self.hovered.and_then(|(id, station)| Some((&**session.drawing().curve(id)?, station)));
-        brush.session(session, &mut self.shapes, hovered);
+        brush.session(session, &mut self.made, hovered);
         if shown.grid {
             // Beside the bar below, where there is room, else above it.
             let up = if rect.width() < BESIDE_THE_BAR { ABOVE_THE_BAR } else { 14.0 };

@@ -2,10 +2,11 @@
 
 use super::comb::Handle;
 use super::shapes::{Shape, Shapes};
+use super::still::{Sight, Still};
 use crate::app::{Ink, Shown};
 use crate::theme::Palette;
 use crate::view::View;
-use eframe::egui::{self, Color32, Painter, Pos2, Stroke, StrokeKind};
+use eframe::egui::{self, Color32, Painter, Stroke, StrokeKind};
 use fairpath_curve::{Continuity, Kind, Point, Spline};
 use fairpath_sketch::{Curve, Session};
 
@@ -25,13 +26,19 @@ pub(crate) struct Brush<'a> {
     pub(crate) painter: &'a Painter,
     pub(crate) view: &'a View,
     pub(crate) shown: &'a Shown,
-    pub(crate) palette: &'a Palette,
+    pub(crate) palette: &'static Palette,
+}
+
+/// What was made of the curves and is used again as long as they are the same.
+#[derive(Default)]
+pub(crate) struct Made {
+    shapes: Shapes,
+    still: Still,
 }
 
 impl Brush<'_> {
-    fn path(&self, points: &[Point], stroke: Stroke) {
-        let points: Vec<Pos2> = points.iter().map(|&point| self.view.screen_of(point)).collect();
-        self.painter.add(egui::Shape::line(points, stroke));
+    fn path(&self, points: &[Point], stroke: Stroke) -> egui::Shape {
+        egui::Shape::line(points.iter().map(|&point| self.view.screen_of(point)).collect(), stroke)
     }
 
     fn colour(&self, kind: Kind) -> Color32 {
@@ -43,38 +50,53 @@ impl Brush<'_> {
         }
     }
 
-    pub(crate) fn shape(&self, shape: &Shape, stroke_of: impl Fn(Kind) -> Stroke) {
-        for piece in &shape.pieces {
-            self.path(&piece.points, stroke_of(piece.kind));
-        }
+    fn pieces(&self, shape: &Shape, stroke_of: impl Fn(Kind) -> Stroke) -> impl Iterator<Item = egui::Shape> {
+        shape.pieces.iter().map(move |piece| self.path(&piece.points, stroke_of(piece.kind)))
     }
 
-    /// The drawing and the stroke in hand.
-    pub(crate) fn session(&self, session: &Session, shapes: &mut Shapes, hovered: Option<(&Curve, f64)>) {
+    pub(crate) fn shape(&self, shape: &Shape, stroke_of: impl Fn(Kind) -> Stroke) {
+        self.painter.extend(self.pieces(shape, stroke_of));
+    }
+
+    /// All curves that are seen, with what was drawn and their combs.
+    fn curves(&self, sight: &Sight<'_>, shapes: &mut Shapes) -> Vec<egui::Shape> {
         let seen = self.view.seen();
         let margin = 4.0 * self.view.pixel_size();
-        let curves = session.drawing().curves();
-        shapes.keep(curves);
+        let mut all = Vec::new();
+        shapes.keep(sight.curves);
         if self.shown.ghost {
-            for curve in curves {
-                self.path(&curve.stroke.points, Stroke::new(1.0, self.palette.ghost));
-            }
+            let ghost = Stroke::new(1.0, self.palette.ghost);
+            all.extend(sight.curves.iter().map(|curve| self.path(&curve.stroke.points, ghost)));
         }
-        for curve in curves {
+        for curve in sight.curves {
             let shape = shapes.of(curve, self.view.zoom());
             if !shape.is_within(seen, margin) {
                 continue;
             }
-            let selected = session.selection().contains(&curve.id);
+            let selected = sight.selection.contains(&curve.id);
             // French curves lie where the mark would.
             if selected && !(self.shown.templates && curve.templates.is_some()) {
-                self.shape(&shape, |_| Stroke::new(SELECTED_WIDTH, self.palette.selected));
+                all.extend(self.pieces(&shape, |_| Stroke::new(SELECTED_WIDTH, self.palette.selected)));
             }
             if self.shown.comb {
-                self.comb(&curve.spline);
+                all.extend(self.comb(&curve.spline));
             }
-            self.shape(&shape, |kind| Stroke::new(CURVE_WIDTH, self.colour(kind)));
+            all.extend(self.pieces(&shape, |kind| Stroke::new(CURVE_WIDTH, self.colour(kind))));
         }
+        all
+    }
+
+    /// The drawing and the stroke in hand.
+    pub(crate) fn session(&self, session: &Session, made: &mut Made, hovered: Option<(&Curve, f64)>) {
+        let sight = Sight {
+            curves: session.drawing().curves(),
+            selection: session.selection(),
+            view: self.view,
+            shown: self.shown,
+            palette: self.palette,
+        };
+        let Made { shapes, still } = made;
+        still.paint(self.painter, &sight, || self.curves(&sight, shapes));
         if let Some(curve) = session.selected() {
             if self.shown.templates {
                 self.templates(session.drawing(), curve);
@@ -105,7 +127,7 @@ impl Brush<'_> {
                 self.shape(&Shape::new(&part, zoom), |_| Stroke::new(SELECTED_WIDTH, self.palette.replaced));
             }
         }
-        self.path(hand.points(), Stroke::new(1.25, self.palette.ghost));
+        self.painter.add(self.path(hand.points(), Stroke::new(1.25, self.palette.ghost)));
         if let Some(preview) = hand.preview() {
             self.shape(&Shape::new(&preview.spline, zoom), |_| Stroke::new(CURVE_WIDTH, self.palette.preview));
         }
@@ -114,31 +136,32 @@ impl Brush<'_> {
         }
         if let Some(live) = hand.live() {
             if self.shown.comb {
-                self.comb(&live.spline);
+                self.painter.extend(self.comb(&live.spline));
             }
             self.shape(&Shape::new(&live.spline, zoom), |kind| Stroke::new(CURVE_WIDTH, self.colour(kind)));
         } else if hand.over().is_none() {
-            self.path(hand.points(), Stroke::new(CURVE_WIDTH, self.palette.ink));
+            self.painter.add(self.path(hand.points(), Stroke::new(CURVE_WIDTH, self.palette.ink)));
         }
     }
 
     /// The curvature of a curve as a comb.
-    pub(crate) fn comb(&self, spline: &Spline) {
+    fn comb(&self, spline: &Spline) -> Vec<egui::Shape> {
         // However near a curve is seen, its comb has no more teeth than these.
         let spacing = (TOOTH_SPACING * self.view.pixel_size()).max(spline.length() / MOST_TEETH);
         let scale = self.shown.comb_scale;
         let thin = Stroke::new(0.75, self.palette.comb);
-        let mut hull: Vec<Pos2> = Vec::new();
+        let (mut hull, mut teeth) = (Vec::new(), Vec::new());
         for segment in spline.segments() {
             // In a tight bend the line through the tips is much longer than the curve.
             let spacing = spacing.min(segment.length / LEAST_TEETH);
             for tooth in segment.comb(spacing, scale) {
                 let [base, tip] = [tooth.base, tooth.tip].map(|point| self.view.screen_of(point));
-                self.painter.line_segment([base, tip], thin);
+                teeth.push(egui::Shape::line_segment([base, tip], thin));
                 hull.push(tip);
             }
         }
-        self.painter.add(egui::Shape::line(hull, Stroke::new(1.25, self.palette.comb_hull)));
+        teeth.push(egui::Shape::line(hull, Stroke::new(1.25, self.palette.comb_hull)));
+        teeth
     }
 
     /// A mark at each join of a curve: a tick where it is smooth, a square at a corner, a ring at an end.
