@@ -34,6 +34,11 @@ const LAYERS: &[Layer] = &[
         workspace: &["fairpath-curve", "fairpath-fit"],
         outside: Some(&["libm", "schemars", "serde", "spade", "thiserror"]),
     },
+    Layer {
+        name: "fairpath-drive",
+        workspace: &["fairpath-curve", "fairpath-fit", "fairpath-shape"],
+        outside: Some(&["clarabel", "libm", "rstar", "schemars", "serde", "thiserror"]),
+    },
     Layer { name: "fairpath-io", workspace: &["fairpath-curve", "fairpath-fit", "fairpath-shape"], outside: None },
     Layer {
         name: "fairpath-render",

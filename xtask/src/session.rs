@@ -21,6 +21,9 @@ const STEP: Duration = Duration::from_millis(4);
 /// From one stroke to the next.
 const BREATH: Duration = Duration::from_millis(200);
 
+/// After the last one.
+const LAST_BREATH: Duration = Duration::from_secs(2);
+
 /// A stroke lies in an area of that size whose corner is in one of so many rows and columns, so that no panel is in the way.
 const SIZE: [i32; 2] = [400, 280];
 const CORNERS: [usize; 2] = [12, 13];
@@ -110,6 +113,8 @@ fn draw(hands: &Hands, strokes: &[Vec<Place>]) -> Result<()> {
             println!("{} strokes are drawn", i + 1);
         }
     }
+    // The window may still be at the last stroke.
+    pause(LAST_BREATH);
     hands.hold(Key::Alt, false)
 }
 

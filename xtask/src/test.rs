@@ -96,7 +96,8 @@ fn page_lints() -> Result<Outcome> {
 fn core_bans() -> Result<Outcome> {
     let target = tree::scratch("bans")?;
     let mut clippy = cargo(&["clippy", "--quiet", "--lib"]);
-    clippy.args(["fairpath-curve", "fairpath-fit", "fairpath-shape"].map(|core| format!("--package={core}")));
+    let cores = ["fairpath-curve", "fairpath-fit", "fairpath-shape", "fairpath-drive"];
+    clippy.args(cores.map(|core| format!("--package={core}")));
     // A target folder of its own: cargo does not always notice that another configuration asks other questions.
     clippy.arg("--target-dir").arg(target).args(["--", "--allow", "clippy::all", "--allow", "warnings"]);
     // A hash table may be looked up but not walked: its order differs from run to run.

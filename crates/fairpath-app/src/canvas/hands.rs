@@ -111,7 +111,8 @@ impl Hands {
                     moved = true;
                 }
                 // Which pointer went up is not told here: a pen tells it itself.
-                Event::PointerButton { pos, pressed: false, .. } if self.busy() && !self.draws_by_pen() => {
+                // The keys as they were then, which on a slow screen may be long ago.
+                Event::PointerButton { pos, pressed: false, modifiers, .. } if self.busy() && !self.draws_by_pen() => {
                     self.release(pos, modifiers, work);
                 }
                 Event::PointerGone if self.by_stylus() => {}

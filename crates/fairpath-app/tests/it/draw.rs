@@ -97,6 +97,24 @@ fn a_stroke_along_a_curve_changes_it_and_shows_before_what_it_replaces() {
 }
 
 #[test]
+fn alt_counts_as_it_was_when_the_pen_was_lifted() {
+    let mut harness = empty_app();
+    let line: Vec<_> = (0..80).map(|i| pos2(200.0 + 7.0 * i as f32, 400.0)).collect();
+    draw(&mut harness, &line);
+    draw(&mut harness, &line[20..60]);
+    assert_eq!(session(&harness).drawing().curves().len(), 1, "without Alt it is a correction");
+    press(&mut harness, line[20]);
+    for &point in &line[21..60] {
+        harness.event(Event::PointerMoved(point));
+    }
+    // A slow screen shows the next picture when Alt is up again.
+    let (pos, button, modifiers) = (line[59], PointerButton::Primary, Modifiers::ALT);
+    harness.event(Event::PointerButton { pos, button, pressed: false, modifiers });
+    harness.run_steps(2);
+    assert_eq!(session(&harness).drawing().curves().len(), 2);
+}
+
+#[test]
 fn the_slider_makes_the_selected_curve_fairer_in_one_step_of_undo() {
     let mut harness = empty_app();
     draw(&mut harness, &wiggle());

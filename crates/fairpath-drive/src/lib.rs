@@ -1,0 +1,38 @@
+//! Road networks on a terrain (McCrae, *Sketch-based path design*, 2008, chapter 3), without a window.
+//!
+//! | to … | use |
+//! | --- | --- |
+//! | have a terrain: of samples, or of nobody's survey | [`Heightfield`], [`fill_voids`], [`SyntheticTerrain`], [`Terrain`] |
+//! | ask it for heights, slopes and what a ray meets | [`Heightfield::height`], [`Heightfield::smooth_height`], [`Heightfield::slope`], [`Terrain::hit`] |
+//! | change it | [`Terrain::change`] |
+//! | draw it as fine as it is near | [`Heightfield::chunk_mesh`], [`Heightfield::chunk_errors_m`] |
+//! | give a path its elevation | [`Profile`], [`smoothed`] |
+//! | find the heights at which paths pass over and under each other | [`CrossingHeights`] |
+//!
+//! x is east, y north and z up, in metres from an origin of the terrain's own. Nothing here reads a file or a clock or starts a thread, and all results are the
+//! same bits on every platform.
+//!
+//! ```
+//! use fairpath_curve::Point;
+//! use fairpath_drive::{Landscape, Ray, SyntheticTerrain, Terrain};
+//!
+//! let islands = SyntheticTerrain { landscape: Landscape::Islands, size: 257, cell_m: 8.0, seed: 7 };
+//! let terrain = Terrain::new(islands.build()?);
+//! let down = Ray { origin: [1000.0, 900.0, 5000.0], direction: [0.0, 0.0, -1.0] };
+//! let hit = terrain.hit(&down).expect("it is aimed at the terrain");
+//! assert_eq!(hit[2], terrain.field().height(Point::new(1000.0, 900.0)));
+//! # Ok::<(), fairpath_drive::TerrainError>(())
+//! ```
+
+mod heights;
+mod profile;
+mod smoothing;
+mod terrain;
+
+pub use heights::{CrossingHeights, HeightError, HeightPoint, Heights, Over, PathPoints};
+pub use profile::{Elevation, Knot, Profile, ProfileError};
+pub use smoothing::smoothed;
+pub use terrain::{
+    CHUNK, COARSEST, Cells, Heightfield, Landscape, MOST_HEIGHT_M, MOST_SAMPLES, NeighbourLevels, Ray, Samples,
+    SyntheticTerrain, Terrain, TerrainError, VoidReport, fill_voids,
+};

@@ -1,0 +1,152 @@
+//! Profiles: continuous grade, what lies between, parts put in the place of others, and smoothing.
+
+use fairpath_drive::{Knot, Profile, ProfileError, smoothed};
+use proptest::prelude::*;
+
+/// Stations and heights, some close together.
+fn points() -> impl Strategy<Value = Vec<[f64; 2]>> {
+    prop::collection::vec((0.5..200.0_f64, -40.0..40.0_f64), 2..30).prop_map(|steps| {
+        let mut station = 0.0;
+        let point = |(gap, height): (f64, f64)| {
+            station += gap;
+            [station, height]
+        };
+        steps.into_iter().map(point).collect()
+    })
+}
+
+fn knots(points: &[[f64; 2]]) -> Vec<Knot> {
+    let knot =
+        |(i, p): (usize, &[f64; 2])| Knot { station_m: p[0], height_m: p[1], grade: 0.1 * ((i % 5) as f64 - 2.0) };
+    points.iter().enumerate().map(knot).collect()
+}
+
+#[test]
+fn what_is_no_profile_is_refused() {
+    let knot = |station_m: f64| Knot { station_m, height_m: 1.0, grade: 0.0 };
+    assert_eq!(Profile::new(vec![knot(0.0)]), Err(ProfileError::TooFew(1)));
+    assert!(matches!(Profile::catmull_rom(&[]), Err(ProfileError::TooFew(0))));
+    for stations in [[0.0, 0.0], [1.0, 0.0], [0.0, f64::NAN], [0.0, f64::INFINITY]] {
+        let made = Profile::new(stations.map(knot).to_vec());
+        assert!(matches!(made, Err(ProfileError::Knot { knot: 1, .. })), "{made:?}");
+    }
+    let steep = Knot { grade: f64::NAN, ..knot(0.0) };
+    assert!(matches!(Profile::new(vec![steep, knot(1.0)]), Err(ProfileError::Knot { knot: 0, .. })));
+}
+
+#[test]
+fn stiffness_leads_from_the_points_to_the_straight_line() {
+    let points: Vec<[f64; 2]> =
+        (0..60).map(|i| [f64::from(i) * 5.0, 0.05 * f64::from(i) + f64::from((i * 7) % 5 - 2)]).collect();
+    let weights = vec![1.0; 60];
+    let exact = smoothed(&points, &weights, 0.0).unwrap();
+    for p in &points {
+        assert!((exact.at(p[0]).height_m - p[1]).abs() < 1e-9);
+    }
+    let line = smoothed(&points, &weights, 1e15).unwrap();
+    let (grade, middle) = (line.at(0.0).grade, line.at(147.5).height_m);
+    for i in 0..60 {
+        let at = line.at(5.0 * f64::from(i));
+        assert!((at.grade - grade).abs() < 1e-6, "{} {grade}", at.grade);
+        assert!((at.height_m - middle - grade * (5.0 * f64::from(i) - 147.5)).abs() < 1e-4);
+    }
+    // By least squares the residuals have no mean.
+    let mean: f64 = points.iter().map(|p| line.at(p[0]).height_m - p[1]).sum::<f64>() / 60.0;
+    assert!(mean.abs() < 1e-6, "{mean}");
+}
+
+proptest! {
+    #[test]
+    fn heights_and_grades_go_on_where_pieces_meet(points in points()) {
+        for profile in [
+            Profile::new(knots(&points)).unwrap(),
+            Profile::catmull_rom(&points).unwrap(),
+            Profile::monotone(&points).unwrap(),
+            smoothed(&points, &vec![1.0; points.len()], 1e4).unwrap(),
+        ] {
+            for piece in 0..profile.knots().len() - 1 {
+                let (a, b) = (profile.knots()[piece], profile.knots()[piece + 1]);
+                let h = b.station_m - a.station_m;
+                let [p, q, c, d] = profile.cubic(piece);
+                prop_assert!((p + h * (q + h * (c + h * d)) - b.height_m).abs() < 1e-9);
+                prop_assert!((q + h * (2.0 * c + h * 3.0 * d) - b.grade).abs() < 1e-9);
+                // Derivatives are those of the height.
+                let (s, e) = (a.station_m + 0.37 * h, 1e-4 * h);
+                let [before, at, after] = [s - e, s, s + e].map(|s| profile.at(s));
+                let slope = (after.height_m - before.height_m) / (2.0 * e);
+                prop_assert!((slope - at.grade).abs() < 1e-5 * (1.0 + at.grade.abs()));
+                let bend = (after.grade - before.grade) / (2.0 * e);
+                prop_assert!((bend - at.bend_per_m).abs() < 1e-5 * (1.0 + at.bend_per_m.abs()));
+            }
+        }
+    }
+
+    #[test]
+    fn a_monotone_profile_stays_between_neighbours(points in points(), t in 0.0..1.0_f64) {
+        let profile = Profile::monotone(&points).unwrap();
+        for pair in points.windows(2) {
+            let height = profile.at(pair[0][0] + t * (pair[1][0] - pair[0][0])).height_m;
+            let (low, high) = (pair[0][1].min(pair[1][1]), pair[0][1].max(pair[1][1]));
+            prop_assert!(low - 1e-9 <= height && height <= high + 1e-9, "{height} between {low} and {high}");
+        }
+    }
+
+    #[test]
+    fn no_place_is_steeper_than_the_steepest(points in points(), ends in (0.0..1.0_f64, 0.0..1.0_f64)) {
+        let profile = Profile::new(knots(&points)).unwrap();
+        let [first, last] = profile.range_m();
+        let at = |t: f64| first + t * (last - first);
+        let range = [at(ends.0.min(ends.1)), at(ends.0.max(ends.1))];
+        let (station, grade) = profile.steepest(range);
+        prop_assert!(range[0] <= station && station <= range[1]);
+        prop_assert_eq!(profile.at(station).grade, grade);
+        for i in 0..=500 {
+            let here = profile.at(range[0] + f64::from(i) / 500.0 * (range[1] - range[0])).grade;
+            prop_assert!(here.abs() <= grade.abs() + 1e-12, "{here} and {grade}");
+        }
+    }
+
+    #[test]
+    fn sums_parts_and_reverses_are_what_they_are_called(a in points(), b in points(), t in (0.0..0.5_f64, 0.5..1.0_f64)) {
+        let (a, b) = (Profile::new(knots(&a)).unwrap(), Profile::monotone(&b).unwrap());
+        let close = |x: f64, y: f64| (x - y).abs() < 1e-9 * (1.0 + x.abs());
+        if let Ok(sum) = a.plus(&b) {
+            let [first, last] = sum.range_m();
+            for i in 0..50 {
+                let s = first + f64::from(i) / 49.0 * (last - first);
+                prop_assert!(close(sum.at(s).height_m, a.at(s).height_m + b.at(s).height_m));
+            }
+        }
+        let [first, last] = a.range_m();
+        let range = [first + t.0 * (last - first), first + t.1 * (last - first)];
+        prop_assume!(range[1] > range[0]);
+        let part = a.part(range).unwrap();
+        for i in 0..50 {
+            let s = f64::from(i) / 49.0 * (range[1] - range[0]);
+            prop_assert!(close(part.at(s).height_m, a.at(range[0] + s).height_m));
+            prop_assert!(close(part.reversed().at(part.range_m()[1] - s).height_m, part.at(s).height_m));
+        }
+    }
+
+    #[test]
+    fn a_part_that_is_put_in_changes_nothing_beside_it(
+        points in prop::collection::vec(-40.0..40.0_f64, 20..40), at in 0.2..0.5_f64, transition in 0.0..60.0_f64,
+    ) {
+        let whole: Vec<[f64; 2]> = points.iter().enumerate().map(|(i, z)| [25.0 * i as f64, *z]).collect();
+        let whole = Profile::monotone(&whole).unwrap();
+        let from = at * whole.range_m()[1];
+        let part = Profile::monotone(&[[from, 3.0], [from + 40.0, 12.0], [from + 90.0, 5.0]]).unwrap();
+        let new = whole.with_part(&part, transition).unwrap();
+        prop_assert_eq!(new.range_m(), whole.range_m());
+        for i in 0..1000 {
+            let s = f64::from(i) / 999.0 * whole.range_m()[1];
+            if (from..=from + 90.0).contains(&s) {
+                prop_assert!((new.at(s).height_m - part.at(s).height_m).abs() < 1e-9);
+            }
+            let beside = 25.0 + transition;
+            if s < from - beside || s > from + 90.0 + beside {
+                prop_assert_eq!(new.at(s), whole.at(s));
+            }
+        }
+    }
+}
