@@ -45,7 +45,7 @@ fn page() -> Result<()> {
 fn application() -> Result<()> {
     tools::graphics()?;
     // The build of the tests is at hand, and fast enough.
-    let example = ["run", "--quiet", "--package", "fairpath-app", "--example", "pictures", "--"];
+    let example = ["run", "--quiet", "--example", "pictures", "--"];
     process::run(process::cargo(&example).arg(tree::root().join("docs")))
 }
 

@@ -27,7 +27,7 @@ const SCENES: [Scene; 6] = [
     ("app-combs", Theme::Light, |app| {
         select(app, 0);
         press_keys(app, &[Key::Num3, Key::Num4]);
-        app.key_press_modifiers(Modifiers::COMMAND, Key::Num0);
+        show_all(app);
     }),
     ("app-oversketch", Theme::Light, |app| {
         select_none(app);
@@ -37,18 +37,27 @@ const SCENES: [Scene; 6] = [
         let neatening = Neatening { method: Method::FrenchCurve, ..Neatening::default() };
         open(app, "hello.json", &neatening, |name| name == "letter S" || name == "bend");
         select(app, 0);
+        show_all(app);
     }),
     ("app-surface", Theme::Light, |app| {
         open(app, "duck.json", &Neatening::default(), |_| true);
         select(app, 0);
         press_keys(app, &[Key::I]);
         app.run_steps(4);
+        show_all(app);
     }),
     ("app-dark", Theme::Dark, |app| {
         select(app, 3);
         press_keys(app, &[Key::Num3]);
+        show_all(app);
     }),
 ];
+
+/// Brings all of the drawing into the part of the canvas over which nothing lies.
+fn show_all(app: &mut Window) {
+    app.key_press_modifiers(Modifiers::COMMAND, Key::Num0);
+    app.run_steps(2);
+}
 
 fn main() -> Result<(), Box<dyn Error>> {
     let folder = PathBuf::from(std::env::args().nth(1).ok_or("name the folder for the pictures")?);
