@@ -84,7 +84,8 @@ impl App {
     /// Strokes or curves, to be added to the drawing.
     fn take_curves(&mut self, name: &str, bytes: &[u8]) -> Result<(), String> {
         let imported = import(bytes, name, self.session.drawing(), self.session.neatening()).map_err(told)?;
-        let mut told = format!("{} curves from {name}.", imported.curves.len());
+        let count = imported.curves.len();
+        let mut told = format!("{count} {} from {name}.", if count == 1 { "curve" } else { "curves" });
         for warning in imported.told.iter().take(MOST_TOLD) {
             told += &format!(" Note: {}.", warning.text.trim_end_matches('.'));
         }

@@ -106,6 +106,7 @@ const scenes = {
       await select(page, 0);
       await keys(page, "i");
       await placeOf(page, /triangles$/);
+      await page.keyboard.press("Control+0");
       await quiet(page);
     },
   },

@@ -69,7 +69,7 @@ fn strokes_become_curves_and_curves_come_as_they_are() {
         drop_file(&mut app, name, Ok(bytes));
         assert_eq!(curves(&app), 1, "{name}");
         assert!(session(&app).drawing().curves()[0].fitted, "{name}");
-        app.get_by_label_contains(&format!("1 curves from {name}"));
+        app.get_by_label_contains(&format!("1 curve from {name}"));
         app.state_mut().session_mut().undo();
         app.run_steps(2);
         assert_eq!(curves(&app), 0, "{name} can be undone");
