@@ -40,8 +40,14 @@ fn an_interruption_leaves_no_file() {
     let mut input = child.stdin.take().unwrap();
     input.write_all(br#"{"format":"fairpath-strokes","#).unwrap();
     let pid = child.id().to_string();
-    assert!(std::process::Command::new("kill").args(["-INT", &pid]).status().unwrap().success());
-    let status = child.wait().unwrap();
+    // More than once: where this test itself runs in the background, the first may come before the program listens, and is then lost.
+    let status = loop {
+        if let Some(status) = child.try_wait().unwrap() {
+            break status;
+        }
+        assert!(std::process::Command::new("kill").args(["-INT", &pid]).status().unwrap().success());
+        std::thread::sleep(std::time::Duration::from_millis(20));
+    };
     drop(input);
     assert!(!status.success());
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
