@@ -29,6 +29,25 @@ pub enum ProfileError {
         /// Its station, m.
         station_m: f64,
     },
+    /// Two profiles that are to be added lie apart.
+    #[error("the profiles have no stations in common: one ends at {end_m} m, and the other begins at {begin_m} m")]
+    Apart {
+        /// The first end, m.
+        end_m: f64,
+        /// The last beginning, m.
+        begin_m: f64,
+    },
+    /// A height cannot be followed with a weight that is not positive and finite, or there are more or fewer weights than heights.
+    #[error("{points} heights come with {weights} weights; each height needs one that is positive and finite")]
+    Weights {
+        /// How many heights there are.
+        points: usize,
+        /// How many weights.
+        weights: usize,
+    },
+    /// The stiffness is negative or not finite.
+    #[error("the stiffness is {0} m³; it must be 0 or more, and finite")]
+    Stiffness(f64),
 }
 
 /// The elevation of a path over its arc length in plan.
@@ -196,10 +215,13 @@ impl Profile {
     /// The sum with another profile, at the stations that both have.
     ///
     /// # Errors
-    /// When they have no range in common.
+    /// When they have no range in common, or a sum is not finite.
     pub fn plus(&self, other: &Self) -> Result<Self, ProfileError> {
         let ([a0, a1], [b0, b1]) = (self.range_m(), other.range_m());
         let (first, last) = (a0.max(b0), a1.min(b1));
+        if !(first < last) {
+            return Err(ProfileError::Apart { end_m: last, begin_m: first });
+        }
         let within = |knot: &&Knot| knot.station_m > first && knot.station_m < last;
         let mut stations: Vec<f64> =
             self.knots.iter().chain(&other.knots).filter(within).map(|knot| knot.station_m).collect();

@@ -4,23 +4,21 @@ use crate::profile::{Knot, Profile, ProfileError};
 
 /// The natural cubic spline that makes the sum of squared distances from the heights, each times its weight, plus `stiffness_m3` times the integral of the
 /// squared bend, least: the bend is continuous, and nothing at both ends (Reinsch, *Smoothing by spline functions*, 1967; Green and Silverman, *Nonparametric
-/// regression*, 1994, section 2.3). Waves shorter than about 2π (stiffness × spacing)^¼ are flattened.
+/// regression*, 1994, section 2.3). With weights of one, waves of length 2π (stiffness × spacing)^¼ are halved, and shorter ones flattened.
 ///
 /// `points` are station and height, m, stations ascending. Time is proportional to their number.
 ///
 /// # Errors
-/// When there are fewer than two points, stations do not ascend, or a number is not finite.
-///
-/// # Panics
-/// When there are not as many weights as points.
+/// When there are fewer than two points, stations do not ascend, a number is not finite, the stiffness is negative, or there is not one positive weight for each point.
 pub fn smoothed(points: &[[f64; 2]], weights: &[f64], stiffness_m3: f64) -> Result<Profile, ProfileError> {
-    assert_eq!(points.len(), weights.len(), "each point has its weight");
     let n = points.len();
     // Whatever is wrong with the points is said by the straight line through them.
     let straight = Profile::catmull_rom(points)?;
-    let usable = stiffness_m3.is_finite() && stiffness_m3 >= 0.0 && weights.iter().all(|w| *w > 0.0 && w.is_finite());
-    if !usable {
-        return Err(ProfileError::Knot { knot: 0, station_m: points[0][0] });
+    if !(stiffness_m3 >= 0.0 && stiffness_m3.is_finite()) {
+        return Err(ProfileError::Stiffness(stiffness_m3));
+    }
+    if weights.len() != n || !weights.iter().all(|w| *w > 0.0 && w.is_finite()) {
+        return Err(ProfileError::Weights { points: n, weights: weights.len() });
     }
     if n == 2 {
         return Ok(straight);

@@ -35,6 +35,38 @@ fn what_is_no_profile_is_refused() {
 }
 
 #[test]
+fn profiles_that_lie_apart_have_no_sum() {
+    let between = |from: f64, to: f64| Profile::monotone(&[[from, 1.0], [to, 2.0]]).unwrap();
+    assert_eq!(between(0.0, 5.0).plus(&between(7.0, 9.0)), Err(ProfileError::Apart { end_m: 5.0, begin_m: 7.0 }));
+    assert!(matches!(between(0.0, 5.0).plus(&between(5.0, 9.0)), Err(ProfileError::Apart { .. })));
+}
+
+#[test]
+fn what_cannot_be_smoothed_is_refused() {
+    let points = [[0.0, 1.0], [10.0, 2.0], [20.0, 0.0]];
+    for weights in [&[1.0, 1.0][..], &[1.0, 0.0, 1.0], &[1.0, -1.0, 1.0], &[1.0, f64::NAN, 1.0], &[1.0; 4]] {
+        assert!(matches!(smoothed(&points, weights, 1.0), Err(ProfileError::Weights { points: 3, .. })), "{weights:?}");
+    }
+    for stiffness in [-1.0, f64::NAN, f64::INFINITY] {
+        assert!(matches!(smoothed(&points, &[1.0; 3], stiffness), Err(ProfileError::Stiffness(_))));
+    }
+    assert!(matches!(smoothed(&points[..1], &[1.0], 1.0), Err(ProfileError::TooFew(1))));
+}
+
+#[test]
+fn a_wave_of_the_length_that_is_told_is_halved() {
+    let (spacing, stiffness) = (5.0, 2e6_f64);
+    let length = std::f64::consts::TAU * (stiffness * spacing).powf(0.25);
+    let points: Vec<[f64; 2]> = (0..2000)
+        .map(|i| [spacing * f64::from(i), libm::cos(std::f64::consts::TAU * spacing * f64::from(i) / length)])
+        .collect();
+    let smooth = smoothed(&points, &vec![1.0; 2000], stiffness).unwrap();
+    // A crest far from both ends.
+    let crest = length * (5000.0 / length).round();
+    assert!((smooth.at(crest).height_m - 0.5).abs() < 0.01, "{}", smooth.at(crest).height_m);
+}
+
+#[test]
 fn stiffness_leads_from_the_points_to_the_straight_line() {
     let points: Vec<[f64; 2]> =
         (0..60).map(|i| [f64::from(i) * 5.0, 0.05 * f64::from(i) + f64::from((i * 7) % 5 - 2)]).collect();
@@ -110,12 +142,17 @@ proptest! {
     fn sums_parts_and_reverses_are_what_they_are_called(a in points(), b in points(), t in (0.0..0.5_f64, 0.5..1.0_f64)) {
         let (a, b) = (Profile::new(knots(&a)).unwrap(), Profile::monotone(&b).unwrap());
         let close = |x: f64, y: f64| (x - y).abs() < 1e-9 * (1.0 + x.abs());
-        if let Ok(sum) = a.plus(&b) {
-            let [first, last] = sum.range_m();
-            for i in 0..50 {
-                let s = first + f64::from(i) / 49.0 * (last - first);
-                prop_assert!(close(sum.at(s).height_m, a.at(s).height_m + b.at(s).height_m));
+        let ([a0, a1], [b0, b1]) = (a.range_m(), b.range_m());
+        let common = [a0.max(b0), a1.min(b1)];
+        match a.plus(&b) {
+            Ok(sum) => {
+                prop_assert_eq!(sum.range_m(), common);
+                for i in 0..50 {
+                    let s = common[0] + f64::from(i) / 49.0 * (common[1] - common[0]);
+                    prop_assert!(close(sum.at(s).height_m, a.at(s).height_m + b.at(s).height_m));
+                }
             }
+            Err(error) => prop_assert!(matches!(error, ProfileError::Apart { .. }) && common[0] >= common[1], "{error}"),
         }
         let [first, last] = a.range_m();
         let range = [first + t.0 * (last - first), first + t.1 * (last - first)];

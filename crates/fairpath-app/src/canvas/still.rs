@@ -18,7 +18,7 @@ pub(crate) struct Sight<'a> {
     pub(crate) palette: &'static Palette,
 }
 
-/// The triangles of what was seen last.
+/// The triangles of what was seen last. Lines only: discs and letters would have to be made anew whenever the texture that they are taken from grows.
 #[derive(Default)]
 pub(crate) struct Still {
     seen: Option<Seen>,

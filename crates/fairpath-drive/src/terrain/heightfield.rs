@@ -3,7 +3,7 @@
 use fairpath_curve::{Point, Vec2};
 use thiserror::Error;
 
-/// Most samples of a heightfield: 2²⁸, four times what a sheet of 1″ of the whole globe's finest free survey has. Beyond it memory would be gone before anything was said.
+/// Most samples of a heightfield: 2²⁸, twenty times the 3601² of a sheet of SRTM at 1″, and a GiB in single precision.
 pub const MOST_SAMPLES: usize = 1 << 28;
 
 /// The heights themselves, row by row from the south, each from the west, m.

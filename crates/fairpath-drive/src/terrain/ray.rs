@@ -93,7 +93,7 @@ impl Search<'_> {
         self.ray.within([x[0], y[0], z[0]], [x[1], y[1], z[1]], part)
     }
 
-    /// Goes from cell to cell, in the order in which the ray does.
+    /// The first hit among all cells of a smallest block.
     fn in_cells(&self, block: [usize; 2], part: [f64; 2]) -> Option<f64> {
         let cells = Pyramid::cells(0, block, self.field.size());
         let mut first: Option<f64> = None;

@@ -40,7 +40,7 @@ const HILL_M: f64 = 700.0;
 /// Octaves of noise; the last one's waves are then as short as 5 m, and low.
 const OCTAVES: u32 = 8;
 
-/// Each octave is lower than the one before by this: steeper than nature's half, because roads are built where it is smoother.
+/// Each octave is so much as high as the one before: less than the half that makes every scale equally rough.
 const GAIN: f64 = 0.42;
 
 impl SyntheticTerrain {
@@ -87,12 +87,12 @@ fn smoothstep(low: f64, high: f64, x: f64) -> f64 {
     t * t * (3.0 - 2.0 * t)
 }
 
-/// Gradient noise (Perlin, *Improving noise*, 2002: its fade and its gradients, over a hash of our own).
+/// Gradient noise in the plane, with the fade of Perlin, *Improving noise*, 2002, over a hash of our own.
 struct Noise {
     seed: u64,
 }
 
-/// Eight directions, of length 1 or √2 as Perlin's are.
+/// Eight directions, along the axes and between them.
 const GRADIENTS: [[f64; 2]; 8] =
     [[1.0, 0.0], [-1.0, 0.0], [0.0, 1.0], [0.0, -1.0], [1.0, 1.0], [-1.0, 1.0], [1.0, -1.0], [-1.0, -1.0]];
 
