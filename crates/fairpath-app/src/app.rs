@@ -135,7 +135,7 @@ impl App {
     }
 
     /// The application for a window that is cleared with [`clear_color`](eframe::App::clear_color) for each picture, as eframe's are. Then it does not
-    /// lay its paper over all of it once more, which takes most of a picture's time where software draws.
+    /// lay its paper over all of it once more, which takes long where software draws.
     #[must_use]
     pub fn in_cleared_window(mut self) -> Self {
         self.canvas.window_is_paper = true;
