@@ -53,6 +53,7 @@ impl History {
     }
 
     /// Tells states of the drawing apart: after a deed was undone it is what it was before, so whoever saved that state knows that nothing differs.
+    /// What a fit finds makes no other state of it: the same is found again for whoever opens what was saved before.
     #[must_use]
     pub fn revision(&self) -> u64 {
         self.revision
@@ -93,12 +94,9 @@ impl History {
     /// Puts a curve in the place of a certain state of it, wherever in past, present and future that is: for what a fit found, which is the same then
     /// as now.
     pub(crate) fn supersede(&mut self, old: &Arc<Curve>, new: Curve) {
+        self.version += 1;
         let new = Arc::new(new);
         let is_present = self.present.supersede(old, &new);
-        self.version += 1;
-        if is_present {
-            self.revision = self.version;
-        }
         // From when it came to when it went, a state of a curve is in every drawing.
         for states in [&mut self.past, &mut self.future] {
             let mut seen = is_present;
@@ -106,10 +104,6 @@ impl History {
                 let has_it = state.drawing.supersede(old, &new);
                 if seen && !has_it {
                     break;
-                }
-                if has_it {
-                    self.version += 1;
-                    state.revision = self.version;
                 }
                 seen = has_it;
             }

@@ -63,6 +63,13 @@ fn a_drawing_that_is_given_is_gone_on_with_and_undo_leads_to_the_last_one() {
 }
 
 #[test]
+fn curves_that_are_found_for_a_first_drawing_do_not_change_it() {
+    let app = crate::hands::app();
+    assert!(session(&app).drawing().curves().iter().all(|curve| curve.fitted));
+    assert_eq!(app.state().title(), "drawing – Fairpath");
+}
+
+#[test]
 fn the_title_tells_whether_the_file_differs_from_what_is_shown() {
     let folder = tempfile::tempdir().unwrap();
     let given = folder.path().join("given.json");
