@@ -193,14 +193,7 @@ mod tests {
         }
         let points = vec![fairpath_curve::Point::ORIGIN, fairpath_curve::Point::new(9.0, 3.0)];
         let strokes = StrokeFile { strokes: vec![fairpath_fit::Stroke::new("a", points)], ..StrokeFile::default() };
-        for format in [
-            StrokeFormat::Json,
-            StrokeFormat::Svg,
-            StrokeFormat::Text,
-            StrokeFormat::InkMl,
-            StrokeFormat::Gpx,
-            StrokeFormat::GeoJson,
-        ] {
+        for format in StrokeFormat::ALL {
             let is_written = encode_strokes(&strokes, format).is_ok();
             assert_eq!(all().any(|export| export == Export::Strokes(format)), is_written, "{format:?}");
         }

@@ -30,6 +30,9 @@ pub enum StrokeFormat {
 const EXPECTED: &str = "strokes as JSON (fairpath-strokes 1), SVG, CSV or blank-separated text (x y [t [pressure]]), InkML, GPX or GeoJSON";
 
 impl StrokeFormat {
+    /// Every format.
+    pub const ALL: [Self; 6] = [Self::Json, Self::Svg, Self::Text, Self::InkMl, Self::Gpx, Self::GeoJson];
+
     /// The format of a file of that name, where its extension tells.
     #[must_use]
     pub fn from_path(path: &Path) -> Option<Self> {

@@ -109,14 +109,6 @@ fn spline_bits(file: &SplineFile) -> Vec<Vec<u64>> {
     file.splines.iter().map(of).collect()
 }
 
-const STROKE_FORMATS: [StrokeFormat; 6] = [
-    StrokeFormat::Json,
-    StrokeFormat::Svg,
-    StrokeFormat::Text,
-    StrokeFormat::InkMl,
-    StrokeFormat::Gpx,
-    StrokeFormat::GeoJson,
-];
 const SPLINE_FORMATS: [SplineFormat; 3] = [SplineFormat::Json, SplineFormat::Svg, SplineFormat::Csv];
 
 /// Reads the bytes as everything; what comes out does not matter, only that something does.
@@ -124,7 +116,7 @@ fn read_as_everything(bytes: &[u8]) {
     let mut options = ReadOptions::default();
     options.limits.max_points = 100_000;
     options.limits.max_nodes = 10_000;
-    for format in STROKE_FORMATS.map(Some).into_iter().chain([None]) {
+    for format in StrokeFormat::ALL.map(Some).into_iter().chain([None]) {
         let _ = read_strokes_from(bytes, "any", format, &options);
     }
     for format in SPLINE_FORMATS.map(Some).into_iter().chain([None]) {
