@@ -89,7 +89,7 @@ pub use fit_source::FitSource;
 pub use hermite_g1::hermite_g1;
 pub use hermite_g2::hermite_g2;
 pub use intersect::{Contact, Intersection, Place, SplineIntersection};
-pub use kurbo::{Point, Vec2};
+pub use kurbo::{Point, Rect, Vec2};
 pub use moments::{displacement, moments, moments_to_4};
 pub use nearest::{Nearest, SplineNearest};
 pub use offset::OffsetPoint;

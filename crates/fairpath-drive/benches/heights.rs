@@ -14,7 +14,7 @@ fn grid(side: usize) -> CrossingHeights {
             if (i + j) % 2 == 0 { Over { upper: a, lower: b } } else { Over { upper: b, lower: a } }
         })
         .collect();
-    CrossingHeights { paths, over, length_scale_m: 100.0 }
+    CrossingHeights { paths, over, level: Vec::new(), length_scale_m: 100.0 }
 }
 
 fn heights(c: &mut Criterion) {

@@ -8,6 +8,7 @@
 //! | draw it as fine as it is near | [`Heightfield::chunk_mesh`], [`Heightfield::chunk_errors_m`] |
 //! | give a path its elevation | [`Profile`], [`smoothed`] |
 //! | find the heights at which paths pass over and under each other | [`CrossingHeights`] |
+//! | give roads the heights of least earthwork within limits of grade and K | [`EngineeredNetwork`] |
 //!
 //! x is east, y north and z up, in metres from an origin of the terrain's own. Nothing here reads a file or a clock or starts a thread, and all results are the
 //! same bits on every platform.
@@ -24,15 +25,40 @@
 //! # Ok::<(), fairpath_drive::TerrainError>(())
 //! ```
 
+mod document;
+mod engineered;
+mod ground;
 mod heights;
+mod network;
 mod profile;
+mod range;
+mod section;
 mod smoothing;
 mod terrain;
 
+pub use document::{
+    Command, CommandError, CrossingSet, Document, FoliageRegion, LaidTerrain, NoFiles, Outcome, PathResult, Results,
+    Settings, SketchAs, State, TerrainSource, Terrains,
+};
+pub use engineered::{
+    ClearanceAt, Demand, Earthwork, EarthworkSection, EngineeredError, EngineeredHeights, EngineeredNetwork,
+    EngineeredRoad, FixedPoint, GradeLimits, HeightBound, InputProblem, MARGIN, Margin, MeetAt, NamedPoint, RoadPoint,
+    STIFFNESS_M4, Shortfall, ShortfallKind, WeightedStretch,
+};
+pub use ground::{
+    CrossSection, EarthworkOptions, FineGrid, Ground, MassHaul, Side, Soil, SoilRegion, Soils, Tile, TileIndex,
+    mass_haul, volumes_m3,
+};
 pub use heights::{CrossingHeights, HeightError, HeightPoint, Heights, Over, PathPoints};
+pub use network::{
+    Arm, Carrier, Choice, Crossing, DrawnHeights, HeightMode, Junction, Meeting, Path, PathId, PathPlace, SketchScale,
+    SpeedZone, Structure, StructureLimits, Turning, Unordered, Way,
+};
 pub use profile::{Elevation, Knot, Profile, ProfileError};
+pub use range::OutOfRange;
+pub use section::{Crosses, Lane, LaneKind, Marking, Material, Piece, Section, SectionError};
 pub use smoothing::smoothed;
 pub use terrain::{
-    CHUNK, COARSEST, Cells, Heightfield, Landscape, MOST_HEIGHT_M, MOST_SAMPLES, NeighbourLevels, Ray, Samples,
-    SyntheticTerrain, Terrain, TerrainError, VoidReport, fill_voids,
+    CHUNK, COARSEST, Cells, GeoReference, Heightfield, Landscape, MOST_HEIGHT_M, MOST_SAMPLES, NeighbourLevels, Ray,
+    Samples, SyntheticTerrain, Terrain, TerrainError, VoidReport, fill_voids,
 };

@@ -34,7 +34,7 @@ fn network(seed: u64, paths: usize, crossings: usize) -> CrossingHeights {
         over.push(Over { upper, lower });
     }
     let paths = stations.into_iter().map(|stations_m| PathPoints { stations_m }).collect();
-    CrossingHeights { paths, over, length_scale_m: 100.0 }
+    CrossingHeights { paths, over, level: Vec::new(), length_scale_m: 100.0 }
 }
 
 #[test]
@@ -42,7 +42,7 @@ fn one_crossing_has_the_heights_that_can_be_computed_by_hand() {
     let path = || PathPoints { stations_m: vec![50.0] };
     let over = vec![Over { upper: point(0, 0), lower: point(1, 0) }];
     let heights =
-        CrossingHeights { paths: vec![path(), path()], over: over.clone(), length_scale_m: 1.0 }.solve().unwrap();
+        CrossingHeights { paths: vec![path(), path()], over: over.clone(), level: Vec::new(), length_scale_m: 1.0 }.solve().unwrap();
     // Both move by t: 2 t² + 1 / (4 t²) is least where t⁴ = 1/8.
     let t = 0.125_f64.powf(0.25);
     assert!((heights.paths[0][0] - t).abs() < 1e-12 && (heights.paths[1][0] + t).abs() < 1e-12, "{heights:?}");
@@ -68,7 +68,7 @@ fn a_ring_of_three_roads_at_three_crossings_is_legal() {
     // A over B, B over C, C over A: each road has two crossings.
     let paths = vec![PathPoints { stations_m: vec![0.0, 40.0] }; 3];
     let over = (0..3).map(|i| Over { upper: point(i, 0), lower: point((i + 1) % 3, 1) }).collect();
-    let problem = CrossingHeights { paths, over, length_scale_m: 40.0 };
+    let problem = CrossingHeights { paths, over, level: Vec::new(), length_scale_m: 40.0 };
     let heights = problem.solve().unwrap();
     for pair in &problem.over {
         let at = |p: HeightPoint| heights.paths[p.path][p.point];
@@ -86,7 +86,7 @@ fn a_ring_of_three_roads_at_three_crossings_is_legal() {
 fn a_ring_at_one_place_is_named() {
     let paths = vec![PathPoints { stations_m: vec![10.0] }; 3];
     let over: Vec<Over> = (0..3).map(|i| Over { upper: point(i, 0), lower: point((i + 1) % 3, 0) }).collect();
-    let error = CrossingHeights { paths, over, length_scale_m: 1.0 }.solve().unwrap_err();
+    let error = CrossingHeights { paths, over, level: Vec::new(), length_scale_m: 1.0 }.solve().unwrap_err();
     let HeightError::Ring { mut overs, .. } = error.clone() else { panic!("{error}") };
     overs.sort_unstable();
     assert_eq!(overs, [0, 1, 2]);
@@ -102,7 +102,7 @@ fn what_is_no_network_is_refused() {
         assert!(matches!(one(bad, vec![], 1.0), Err(HeightError::Stations { .. })));
     }
     let over = vec![Over { upper: point(0, 0), lower: point(1, 0) }];
-    assert_eq!(one(vec![1.0], over, 1.0), Err(HeightError::NoPoint { over: 0, path: 1, point: 0 }));
+    assert_eq!(one(vec![1.0], over, 1.0), Err(HeightError::NoPoint { pair: 0, path: 1, point: 0 }));
     for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
         assert_eq!(one(vec![1.0], vec![], bad), Err(HeightError::Scale));
     }

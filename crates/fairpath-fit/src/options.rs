@@ -157,6 +157,9 @@ pub struct FitOptions {
     /// Least distance of two corners along the stroke.
     #[schemars(extend("unit" = "px"))]
     pub corner_distance: f64,
+    /// No piece bends to a smaller radius; corners stay corners. 1 is the finest bend that a pixel shows.
+    #[schemars(extend("unit" = "px"))]
+    pub min_radius: f64,
     /// How samples are placed (section 3.2).
     pub resampling: Resampling,
     /// How fast the distance of samples may change along the stroke: β of section 3.2; the paper's value is 0.2.
@@ -267,6 +270,7 @@ impl FitOptions {
             corner_radius: 3.3,
             corner_window: 26.0,
             corner_distance: 12.0,
+            min_radius: 1.0,
             resampling: Resampling::Even,
             sampling_falloff: 0.5,
             points_per_circle: 12.0,
@@ -356,7 +360,7 @@ impl FitOptions {
         let (share, sampled, circle) = (within(0.0, 1.0), within(0.25, 1e6), within(4.0, 200.0));
         let (window, angle, falloff) = (within(4.0, 1000.0), within(1.0, 179.0), within(0.01, 10.0));
         let (pixel, limit) = (within(1e-12, 1e12), within(0.01, 1e4));
-        let rules: [Rule; 27] = [
+        let rules: [Rule; 28] = [
             ("pixel_size", self.pixel_size, &pixel, "1e-12 to 1e12"),
             ("closing_gap", self.closing_gap, &not_negative, "0 or more"),
             ("corner_angle", self.corner_angle, &angle, "1 to 179 degrees"),
@@ -366,6 +370,7 @@ impl FitOptions {
             ("corner_radius", self.corner_radius, &positive, "more than 0"),
             ("corner_window", self.corner_window, &window, "4 to 1000 px"),
             ("corner_distance", self.corner_distance, &not_negative, "0 or more"),
+            ("min_radius", self.min_radius, &limit, "0.01 to 1e4 px"),
             ("sampling_falloff", self.sampling_falloff, &falloff, "0.01 to 10"),
             ("points_per_circle", self.points_per_circle, &circle, "4 to 200"),
             ("min_sampling", self.min_sampling, &sampled, "0.25 to 1e6 px"),
@@ -418,6 +423,11 @@ impl FitOptions {
             });
         }
         Ok(())
+    }
+
+    /// The largest curvature of a piece, radians per px.
+    pub(crate) fn max_curvature(&self) -> f64 {
+        1.0 / self.min_radius
     }
 
     /// The sizes of neighbourhood in which corners are looked for, px.

@@ -37,7 +37,7 @@ impl CrossingHeights {
             step /= SHRINK;
             steps += 1;
         }
-        Ok(self.heights(&y, cost, steps))
+        Ok(self.heights(&sum.spread(&y), cost, steps))
     }
 }
 

@@ -43,6 +43,35 @@ fn ring(over: &[(usize, usize)], waits_for: &[usize]) -> Vec<usize> {
     }
 }
 
+/// The place of each point, where pairs of them are one place, and how many places there are; in the order of their first points.
+pub(super) fn places(points: usize, level: &[(usize, usize)]) -> (Vec<usize>, usize) {
+    let mut parent: Vec<usize> = (0..points).collect();
+    let root = |parent: &mut Vec<usize>, mut i: usize| {
+        while parent[i] != i {
+            parent[i] = parent[parent[i]];
+            i = parent[i];
+        }
+        i
+    };
+    for &(a, b) in level {
+        let (a, b) = (root(&mut parent, a), root(&mut parent, b));
+        // The earlier point stands for both.
+        parent[a.max(b)] = a.min(b);
+    }
+    let mut place = vec![0; points];
+    let mut count = 0;
+    for i in 0..points {
+        let first = root(&mut parent, i);
+        if first == i {
+            place[i] = count;
+            count += 1;
+        } else {
+            place[i] = place[first];
+        }
+    }
+    (place, count)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

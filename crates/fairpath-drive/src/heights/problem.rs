@@ -1,6 +1,6 @@
 //! What is asked and what comes of it: the sum that the heights shall make small, and its minimum.
 
-use super::order::levels;
+use super::order::{levels, places};
 use super::sparse::{Factor, Pattern};
 use thiserror::Error;
 
@@ -36,6 +36,8 @@ pub struct CrossingHeights {
     pub paths: Vec<PathPoints>,
     /// Which points pass over which.
     pub over: Vec<Over>,
+    /// Which points are one place at one height: where paths meet.
+    pub level: Vec<[HeightPoint; 2]>,
     /// The length by which stations are divided before grades are taken, m. The thesis leaves the unit of arc length open; heights are in units of a
     /// clearance, so that a grade is a clearance per this length.
     pub length_scale_m: f64,
@@ -67,10 +69,10 @@ pub enum HeightError {
         point: usize,
     },
     /// There is no such point.
-    #[error("crossing {over}: path {path} has no point {point}")]
+    #[error("crossing {pair}: path {path} has no point {point}")]
     NoPoint {
-        /// Which of the pairs.
-        over: usize,
+        /// Which of the pairs, those that are level after those over each other.
+        pair: usize,
         /// The path that it names.
         path: usize,
         /// The point that it names.
@@ -132,9 +134,10 @@ impl CrossingHeights {
             (y, cost) = (next, next_cost);
             steps += 1;
         }
-        Ok(self.heights(&y, cost, steps))
+        Ok(self.heights(&sum.spread(&y), cost, steps))
     }
 
+    /// Heights of all points, path by path.
     pub(super) fn heights(&self, y: &[f64], cost: f64, steps: usize) -> Heights {
         let mut rest = y.iter().copied();
         let paths = self.paths.iter().map(|path| rest.by_ref().take(path.stations_m.len()).collect()).collect();
@@ -175,8 +178,12 @@ fn moved(sum: &Sum, y: &[f64], step: &[f64], t: f64) -> (Vec<f64>, f64) {
     (next, cost)
 }
 
-/// The sum over all points in one list.
+/// The sum over all points in one list. What is unknown is a height for each place: points that are level share one.
 pub(super) struct Sum {
+    /// The place of each point.
+    places: Vec<usize>,
+    /// How many points a place has.
+    weights: Vec<f64>,
     /// Neighbours along a path, with the square of one over their distance.
     grades: Vec<(usize, usize, f64)>,
     /// Upper and lower points.
@@ -195,35 +202,56 @@ impl Sum {
             return Err(HeightError::Scale);
         }
         let mut firsts = Vec::with_capacity(problem.paths.len());
+        let mut points = 0;
+        for path in &problem.paths {
+            firsts.push(points);
+            points += path.stations_m.len();
+        }
+        let index = |pair: usize, HeightPoint { path, point }: HeightPoint| {
+            let there = problem.paths.get(path).is_some_and(|points| point < points.stations_m.len());
+            if there { Ok(firsts[path] + point) } else { Err(HeightError::NoPoint { pair, path, point }) }
+        };
+        let mut level = Vec::with_capacity(problem.level.len());
+        for (i, &[a, b]) in problem.level.iter().enumerate() {
+            let pair = problem.over.len() + i;
+            level.push((index(pair, a)?, index(pair, b)?));
+        }
+        let (places, count) = places(points, &level);
+        let mut weights = vec![0.0; count];
+        for &place in &places {
+            weights[place] += 1.0;
+        }
         let mut grades = Vec::new();
-        let mut count = 0;
         for (path, points) in problem.paths.iter().enumerate() {
-            firsts.push(count);
             for (i, &station) in points.stations_m.iter().enumerate() {
                 if !station.is_finite() || (i > 0 && !(station > points.stations_m[i - 1])) {
                     return Err(HeightError::Stations { path, point: i });
                 }
                 if i > 0 {
                     let length = (station - points.stations_m[i - 1]) / problem.length_scale_m;
-                    grades.push((count + i - 1, count + i, 1.0 / (length * length)));
+                    let (a, b) = (places[firsts[path] + i - 1], places[firsts[path] + i]);
+                    // A loop from a place to itself is level in the mean.
+                    if a != b {
+                        grades.push((a, b, 1.0 / (length * length)));
+                    }
                 }
             }
-            count += points.stations_m.len();
         }
-        let index = |over: usize, HeightPoint { path, point }: HeightPoint| {
-            let there = problem.paths.get(path).is_some_and(|points| point < points.stations_m.len());
-            if there { Ok(firsts[path] + point) } else { Err(HeightError::NoPoint { over, path, point }) }
-        };
         let mut over = Vec::with_capacity(problem.over.len());
         for (i, pair) in problem.over.iter().enumerate() {
-            over.push((index(i, pair.upper)?, index(i, pair.lower)?));
+            over.push((places[index(i, pair.upper)?], places[index(i, pair.lower)?]));
         }
         let pairs = grades.iter().map(|&(i, j, _)| (i, j)).chain(over.iter().copied());
         let pattern = Pattern::new(count, pairs);
         let entry = |i: usize, j: usize| if i == j { i } else { pattern.entry(i, j) };
         let grade_entries = grades.iter().map(|&(i, j, _)| entry(i, j)).collect();
         let over_entries = over.iter().map(|&(i, j)| entry(i, j)).collect();
-        Ok(Self { grades, over, count, pattern, grade_entries, over_entries })
+        Ok(Self { places, weights, grades, over, count, pattern, grade_entries, over_entries })
+    }
+
+    /// The heights of all points from those of the places.
+    pub(super) fn spread(&self, y: &[f64]) -> Vec<f64> {
+        self.places.iter().map(|&place| y[place]).collect()
     }
 
     /// Heights in the right order: each point one higher than the highest that it passes over.
@@ -236,7 +264,7 @@ impl Sum {
 
     /// The sum of equations 3.1, 3.2 and 3.3; infinite where a point is not above the one that it passes over.
     pub(super) fn cost(&self, y: &[f64]) -> f64 {
-        let height: f64 = y.iter().map(|y| y * y).sum();
+        let height: f64 = y.iter().zip(&self.weights).map(|(y, w)| w * y * y).sum();
         let grade: f64 = self.grades.iter().map(|&(i, j, w)| w * (y[j] - y[i]) * (y[j] - y[i])).sum();
         let mut relation = 0.0;
         for &(a, b) in &self.over {
@@ -251,8 +279,8 @@ impl Sum {
 
     /// First derivatives.
     pub(super) fn gradient(&self, y: &[f64], gradient: &mut [f64]) {
-        for (g, y) in gradient.iter_mut().zip(y) {
-            *g = 2.0 * y;
+        for (i, g) in gradient.iter_mut().enumerate() {
+            *g = 2.0 * self.weights[i] * y[i];
         }
         for &(i, j, w) in &self.grades {
             let slope = 2.0 * w * (y[j] - y[i]);
@@ -271,7 +299,9 @@ impl Sum {
     fn derivatives(&self, y: &[f64], gradient: &mut [f64], hessian: &mut [f64]) {
         self.gradient(y, gradient);
         hessian.fill(0.0);
-        hessian[..self.count].fill(2.0);
+        for (entry, weight) in hessian.iter_mut().zip(&self.weights) {
+            *entry = 2.0 * weight;
+        }
         for (&(i, j, w), &entry) in self.grades.iter().zip(&self.grade_entries) {
             hessian[i] += 2.0 * w;
             hessian[j] += 2.0 * w;

@@ -1,6 +1,7 @@
 //! The terrain: heights on a grid, what is sampled from it and what is shown of it.
 
 mod chunks;
+mod georeference;
 mod heightfield;
 mod pyramid;
 mod ray;
@@ -8,6 +9,7 @@ mod synthetic;
 mod voids;
 
 pub use chunks::{CHUNK, COARSEST, NeighbourLevels};
+pub use georeference::GeoReference;
 pub use heightfield::{Heightfield, MOST_HEIGHT_M, MOST_SAMPLES, Samples, TerrainError};
 pub use pyramid::Cells;
 pub use ray::Ray;

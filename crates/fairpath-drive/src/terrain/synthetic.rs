@@ -2,9 +2,12 @@
 
 use super::heightfield::{Heightfield, Samples, TerrainError};
 use fairpath_curve::{Point, Vec2};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
 /// A kind of landscape. Its water stands at a height of 0 m.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
 pub enum Landscape {
     /// Rolling hills, all of them dry.
     #[default]

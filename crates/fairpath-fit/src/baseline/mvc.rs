@@ -8,6 +8,7 @@ use super::options::MvcOptions;
 use super::{evenly, one_turn, stretches};
 use crate::conclude::Parts;
 use crate::shortest_path::chain::{Chain, Piece, Shortness};
+use crate::shortest_path::controls::MAX_CURVATURE;
 use crate::shortest_path::merge::{Effort, merge};
 use crate::track::{Shape, Track};
 use fairpath_curve::{Continuity, Kind, Vec2, trig};
@@ -46,6 +47,7 @@ pub(crate) fn fairest(track: &Track, options: &MvcOptions) -> Option<(Parts, usi
         end_factor: END_WEIGHT,
         // Pieces of equal length are what makes the sum over them an integral.
         short: Some(Shortness { length: options.spacing, stiffness: STIFFNESS }),
+        max_curvature: MAX_CURVATURE,
         variation: libm::pow(options.smoothing_length, 6.0),
         pins: [None; 2],
         held: [None; 2],

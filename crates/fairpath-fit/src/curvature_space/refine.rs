@@ -14,6 +14,7 @@ use crate::polyline::Polyline;
 use crate::primitive_fit;
 use crate::shortest_path::chain::{Chain, LENGTH, Measured, Piece, Shortness};
 use crate::shortest_path::circle::circle;
+use crate::shortest_path::controls::MAX_CURVATURE;
 use crate::shortest_path::merge::{Effort, merge};
 use crate::shortest_path::refine::{refine, total};
 use crate::track::{Course, Shape};
@@ -178,6 +179,7 @@ fn chain<'a>(runs: &[Run], ground: &Ground, course: &'a Course, options: &Curvat
         closed: shape != Shape::Open,
         end_factor: options.end_weight,
         short: Some(SHORT),
+        max_curvature: MAX_CURVATURE,
         variation: 0.0,
         pins: [None; 2],
         held: [None; 2],

@@ -1,6 +1,5 @@
 //! Candidate primitives for every run of samples (section 3.3 of Baran et al. 2010).
 
-use super::controls::MAX_CURVATURE;
 use crate::linear::{cholesky, solve, solve_lower};
 use crate::options::{Deviation, FitOptions};
 use crate::primitive_fit::{Normal, Walked, chord, circle_through, walk_arc, walk_line, walk_near};
@@ -146,8 +145,8 @@ fn stride(span: usize) -> usize {
 
 /// Whether merging can straighten a primitive to what it allows. A curl far smaller than a pixel lies near all points of a blot, but
 /// would wind on for ever.
-pub(crate) fn mergeable(p: &Primitive, length: f64) -> bool {
-    p.kappa.abs().max((p.kappa + p.sharpness * length).abs()) <= SHARPEST * MAX_CURVATURE
+pub(crate) fn mergeable(p: &Primitive, length: f64, max_curvature: f64) -> bool {
+    p.kappa.abs().max((p.kappa + p.sharpness * length).abs()) <= SHARPEST * max_curvature
 }
 
 /// A primitive may bend more than a merged one by this factor: fits of two or three samples do without being curls.
@@ -239,7 +238,7 @@ fn extend(
     let sound = fit.normal.energy.is_finite()
         && fit.length > 0.25 * extent
         && fit.length < 1.5 * extent + 4.0
-        && mergeable(&fit.primitive, fit.length);
+        && mergeable(&fit.primitive, fit.length, options.max_curvature());
     let error = deviation(fit.normal.energy, fit.normal.weight, fit.normal.max, options);
     if !sound
         || fit.normal.max > options.max_error
@@ -306,7 +305,7 @@ fn constrained(
             p.sharpness -= by;
             by * square * fit.length * (1.0 / 6.0)
         };
-        if p.sharpness == 0.0 || !mergeable(&p, fit.length) {
+        if p.sharpness == 0.0 || !mergeable(&p, fit.length, options.max_curvature()) {
             continue;
         }
         // If that moves the far end of a long or tight one, it is measured as it is now.

@@ -50,6 +50,8 @@ pub(crate) struct Chain<'a> {
     /// Weight of the ends and corners relative to the other data.
     pub(crate) end_factor: f64,
     pub(crate) short: Option<Shortness>,
+    /// No piece may bend more, radians per px.
+    pub(crate) max_curvature: f64,
     /// Energy for the square of how fast curvature changes, summed along the chain, px⁶; zero where fairness comes from having few pieces.
     pub(crate) variation: f64,
     /// Where the ends of a part of a longer chain must stay to meet the rest, nearly: the rest can still give way.

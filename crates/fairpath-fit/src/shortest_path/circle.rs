@@ -24,7 +24,7 @@ pub(crate) struct Circle {
     pub(crate) largest: f64,
 }
 
-/// The circle nearest to a ring; nothing if arcs are forbidden, it does not go around, or strays further than a candidate may.
+/// The circle nearest to a ring; nothing if arcs are forbidden, it does not go around, bends more than the options allow, or strays further than a candidate may.
 pub(crate) fn circle(track: &Track, options: &FitOptions) -> Option<Circle> {
     let arc_cost = options.arc_cost?;
     // The last datum of a turn is the first of the next.
@@ -40,7 +40,7 @@ pub(crate) fn circle(track: &Track, options: &FitOptions) -> Option<Circle> {
     let turned =
         (0..data.len()).map(|i| angle_between(data[i].point - centre, data[(i + 1) % data.len()].point - centre));
     let turns = (turned.sum::<f64>() / TAU).round();
-    if !(largest <= options.max_error && largest < radius) || turns == 0.0 {
+    if !(largest <= options.max_error && largest < radius) || turns == 0.0 || radius * options.max_curvature() < 1.0 {
         return None;
     }
     let angle = trig::angle_of(data[0].point - centre);

@@ -5,7 +5,7 @@ use fairpath_curve::{Continuity, Kind};
 
 /// Shortest length of a piece, px.
 const MIN_LENGTH: f64 = 1.0;
-/// Largest curvature, radians per px.
+/// Largest curvature where no option says another, radians per px.
 pub(crate) const MAX_CURVATURE: f64 = 1.0;
 
 /// Where each parameter of a piece comes from.
@@ -51,11 +51,11 @@ pub(super) fn roles(chain: &Chain, k: usize) -> [Role; Q] {
 }
 
 /// Least and largest value of a control.
-fn bounds(piece: &Piece, after: Option<&Piece>, joined: bool, index: usize) -> (f64, f64) {
+fn bounds(chain: &Chain, piece: &Piece, after: Option<&Piece>, joined: bool, index: usize) -> (f64, f64) {
     match index {
         LENGTH => (MIN_LENGTH, piece.longest),
         KAPPA0 | KAPPA1 => {
-            let mut range = (-MAX_CURVATURE, MAX_CURVATURE);
+            let mut range = (-chain.max_curvature, chain.max_curvature);
             let mut keep = |sign: i8| match sign {
                 1 => range.0 = 0.0,
                 -1 => range.1 = 0.0,
@@ -81,11 +81,11 @@ fn bounds(piece: &Piece, after: Option<&Piece>, joined: bool, index: usize) -> (
 pub(super) fn control_bounds(chain: &Chain, k: usize, index: usize) -> (f64, f64) {
     let n = chain.pieces.len();
     let joined = chain.joins.get(k).is_some_and(|j| *j >= Continuity::G2);
-    bounds(&chain.pieces[k], Some(&chain.pieces[(k + 1) % n]), joined, index)
+    bounds(chain, &chain.pieces[k], Some(&chain.pieces[(k + 1) % n]), joined, index)
 }
 
 pub(super) fn first_bounds(chain: &Chain) -> (f64, f64) {
-    bounds(&chain.pieces[0], None, false, KAPPA0)
+    bounds(chain, &chain.pieces[0], None, false, KAPPA0)
 }
 
 /// How far a parameter may change in one round without leaving what its derivatives can foresee.

@@ -5,7 +5,7 @@ mod candidates;
 pub(crate) mod chain;
 pub(crate) mod circle;
 mod closing;
-mod controls;
+pub(crate) mod controls;
 mod cycle;
 mod distances;
 mod graph;

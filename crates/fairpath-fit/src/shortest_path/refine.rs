@@ -250,7 +250,7 @@ fn united(
         Kind::Clothoid => fit_freely(&guess, data, 4, 3, 1.0),
     };
     let p = fit.primitive;
-    if !(fit.normal.energy.is_finite() && fit.length > 0.4 * length && mergeable(&p, fit.length)) {
+    if !(fit.normal.energy.is_finite() && fit.length > 0.4 * length && mergeable(&p, fit.length, chain.max_curvature)) {
         return None;
     }
     let sign = if kind == Kind::Clothoid && a.sign[0] == b.sign[1] { [a.sign[0], b.sign[1]] } else { [0, 0] };
@@ -359,6 +359,7 @@ fn tried(chain: &Chain, measured: &Measured, change: &Change, options: &FitOptio
         closed: false,
         end_factor: chain.end_factor,
         short: chain.short,
+        max_curvature: chain.max_curvature,
         variation: 0.0,
         pins,
         held: [chain.held[0].filter(|_| from == 0), chain.held[1].filter(|_| to == n)],

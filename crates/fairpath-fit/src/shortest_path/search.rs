@@ -291,6 +291,7 @@ pub(crate) fn chain<'a>(
         closed,
         end_factor: options.end_factor,
         short,
+        max_curvature: options.max_curvature(),
         variation: 0.0,
         pins: [None; 2],
         held,

@@ -1,0 +1,285 @@
+//! What follows from a state: crossings, heights, structures and the shaped ground. Only what a change touches is worked out anew; the rest is shared with what followed from the
+//! state before, so that the result is the same as if all were new.
+
+use super::state::{LaidTerrain, State};
+use crate::ground::{CrossSection, Ground, Hits, TileIndex, cross_sections, hits};
+use crate::network::{
+    Crossing, Junction, Path, PathId, Structure, Unordered, alone, crossings_between, crossings_within, decide,
+    junctions, profile_with, structures, wanted_heights,
+};
+use crate::profile::Profile;
+use fairpath_curve::Rect;
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
+
+/// What follows for one path.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PathResult {
+    /// The path.
+    pub path: Arc<Path>,
+    /// Its elevation.
+    pub profile: Arc<Profile>,
+    /// Its bridges and tunnels, in order.
+    pub structures: Vec<Structure>,
+    /// Its cross-sections, in order.
+    pub sections: Vec<CrossSection>,
+    /// The elevation that it would have alone.
+    alone: Arc<Profile>,
+    /// Stations of its crossings and the heights there, m.
+    wanted: Vec<[f64; 2]>,
+    /// Its crossings, for which it has bridges.
+    crossings: Vec<Crossing>,
+    /// What its corridor asks of the ground.
+    hits: Hits,
+}
+
+/// Crossings of each pair of paths that has any.
+type Pairs = BTreeMap<[PathId; 2], Arc<Vec<Crossing>>>;
+
+/// What follows from a state with a terrain.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Results {
+    /// For each path of the state, in its order.
+    pub paths: Vec<Arc<PathResult>>,
+    /// All crossings, by the ids of their paths.
+    pub crossings: Vec<Crossing>,
+    /// All intersections of roads.
+    pub junctions: Vec<Arc<Junction>>,
+    /// The shaped ground.
+    pub ground: Ground,
+    /// Crossings that ask for a ring, where there are such; the heights of their paths know nothing of crossings.
+    pub unordered: Option<Unordered>,
+    /// Crossings by pairs, as if nothing had been said about them.
+    pairs: Pairs,
+}
+
+impl Results {
+    /// What follows for a path.
+    #[must_use]
+    pub fn path(&self, id: PathId) -> Option<&Arc<PathResult>> {
+        self.paths.binary_search_by_key(&id, |p| p.path.id).ok().map(|i| &self.paths[i])
+    }
+}
+
+/// What follows from `state`, whose terrain is `terrain`; `before` is a state with what follows from it.
+pub(super) fn derive(before: Option<(&State, &Results)>, state: &State, terrain: &LaidTerrain) -> Results {
+    let before = before.filter(|(old, _)| old.terrain.as_ref().is_some_and(|t| is_same_terrain(t, terrain)));
+    let old_path = |id: PathId| before.and_then(|(_, results)| results.path(id));
+    let is_old = |path: &Arc<Path>| old_path(path.id).is_some_and(|old| Arc::ptr_eq(&old.path, path));
+    let pairs = pairs(before.map(|(_, r)| &r.pairs), state, is_old);
+    let crossings = decided(&pairs, state);
+    // Settings reach every path; a region of soil reaches those that lie on it, and telling which would cost more than it saves.
+    let same_ground =
+        before.is_some_and(|(old, _)| old.settings == state.settings && Arc::ptr_eq(&old.soils, &state.soils));
+    let alone_of: Vec<Arc<Profile>> = state
+        .paths
+        .iter()
+        .map(|path| match old_path(path.id) {
+            Some(old) if is_old(path) => old.alone.clone(),
+            _ => Arc::new(alone(path, &terrain.field, terrain.water_m)),
+        })
+        .collect();
+    let mut crossings_of: Vec<Vec<Crossing>> = vec![Vec::new(); state.paths.len()];
+    let index = |id: PathId| state.paths.binary_search_by_key(&id, |p| p.id).ok();
+    for crossing in &crossings {
+        let [a, b] = crossing.places().map(|p| index(p.path));
+        let own = [a, if a == b { None } else { b }];
+        own.into_iter().flatten().for_each(|i| crossings_of[i].push(*crossing));
+    }
+    let (wanted, unordered) = heights(before.map(|(_, r)| r), state, &alone_of, &crossings, &crossings_of, is_old);
+    let mut paths = Vec::with_capacity(state.paths.len());
+    let mut dirty: BTreeSet<TileIndex> = BTreeSet::new();
+    let empty = Ground::new(terrain.field.clone());
+    let old_ground = before.map_or(&empty, |(_, results)| &results.ground);
+    for (i, path) in state.paths.iter().enumerate() {
+        let old = old_path(path.id);
+        let same_heights = old.is_some_and(|old| is_old(path) && old.wanted == wanted[i]);
+        if let Some(old) = old.filter(|old| same_heights && same_ground && old.crossings == crossings_of[i]) {
+            paths.push(old.clone());
+            continue;
+        }
+        let profile = match old {
+            Some(old) if same_heights => old.profile.clone(),
+            _ => Arc::new(profile_with(path, &alone_of[i], &wanted[i])),
+        };
+        let other = |place: crate::network::PathPlace| state.path_of(place.path).map(Arc::as_ref);
+        let structures = structures(
+            path,
+            &profile,
+            &crossings_of[i],
+            other,
+            &terrain.field,
+            terrain.water_m,
+            &state.settings.structures,
+        );
+        let result = match old {
+            Some(old) if same_heights && same_ground && old.structures == structures => {
+                PathResult { crossings: crossings_of[i].clone(), ..old.as_ref().clone() }
+            }
+            _ => {
+                let earthwork = &state.settings.earthwork;
+                let sections = cross_sections(path, &profile, &structures, &terrain.field, &state.soils, earthwork);
+                let hits = hits(&sections, path.section.bed_m, earthwork, old_ground.grid());
+                let tiles = old.into_iter().flat_map(|old| old.hits.keys()).chain(hits.keys());
+                dirty.extend(tiles.copied());
+                PathResult {
+                    path: path.clone(),
+                    profile,
+                    structures,
+                    sections,
+                    alone: alone_of[i].clone(),
+                    wanted: wanted[i].clone(),
+                    crossings: crossings_of[i].clone(),
+                    hits,
+                }
+            }
+        };
+        paths.push(Arc::new(result));
+    }
+    let gone = before.into_iter().flat_map(|(_, r)| &r.paths).filter(|old| index(old.path.id).is_none());
+    dirty.extend(gone.flat_map(|old| old.hits.keys().copied()));
+    let ground = if dirty.is_empty() {
+        old_ground.clone()
+    } else {
+        let corridors: Vec<&Hits> = paths.iter().map(|p| &p.hits).collect();
+        old_ground.reshaped(&dirty, &corridors)
+    };
+    let junctions = intersections(before.map(|(_, r)| r), state, &paths, &crossings);
+    Results { paths, crossings, junctions, ground, unordered, pairs }
+}
+
+/// All intersections; those whose roads are as they were are kept.
+fn intersections(
+    before: Option<&Results>,
+    state: &State,
+    paths: &[Arc<PathResult>],
+    crossings: &[Crossing],
+) -> Vec<Arc<Junction>> {
+    let result = |id: PathId| paths.binary_search_by_key(&id, |p| p.path.id).ok().map(|i| &paths[i]);
+    let unchanged = |id: PathId| match (before.and_then(|b| b.path(id)), result(id)) {
+        (Some(old), Some(new)) => Arc::ptr_eq(&old.path, &new.path) && Arc::ptr_eq(&old.profile, &new.profile),
+        _ => false,
+    };
+    let old: BTreeMap<PathId, Vec<&Arc<Junction>>> =
+        before.into_iter().flat_map(|b| &b.junctions).fold(BTreeMap::new(), |mut by_path, junction| {
+            let first = junction.spans.first().map(|s| s.0);
+            by_path.entry(first.unwrap_or(PathId(0))).or_default().push(junction);
+            by_path
+        });
+    let known = |spans: &[(PathId, [f64; 2])]| {
+        let same = |j: &&&Arc<Junction>| j.spans == spans && spans.iter().all(|(id, _)| unchanged(*id));
+        old.get(&spans.first()?.0)?.iter().find(same).map(|j| Arc::clone(j))
+    };
+    let path_of = |id: PathId| state.path_of(id).map(Arc::as_ref);
+    let profile_of = |id: PathId| result(id).map(|r| r.profile.as_ref());
+    junctions(crossings, &path_of, &profile_of, &known)
+}
+
+fn is_same_terrain(a: &LaidTerrain, b: &LaidTerrain) -> bool {
+    Arc::ptr_eq(&a.field, &b.field) && a.water_m == b.water_m
+}
+
+/// Crossings of all pairs; those of two paths that are as they were are kept.
+fn pairs(before: Option<&Pairs>, state: &State, is_old: impl Fn(&Arc<Path>) -> bool) -> Pairs {
+    let fresh: Vec<bool> = state.paths.iter().map(|p| !is_old(p)).collect();
+    let index = |id: PathId| state.paths.binary_search_by_key(&id, |p| p.id).ok();
+    let mut pairs = Pairs::new();
+    for (ids, crossings) in before.into_iter().flatten() {
+        if ids.iter().all(|id| index(*id).is_some_and(|i| !fresh[i])) {
+            pairs.insert(*ids, crossings.clone());
+        }
+    }
+    if !fresh.contains(&true) {
+        return pairs;
+    }
+    let boxes: Vec<Rect> = state.paths.iter().map(|p| reach(p)).collect();
+    for (i, a) in state.paths.iter().enumerate() {
+        for (j, b) in state.paths.iter().enumerate().skip(i) {
+            if !(fresh[i] || fresh[j]) || boxes[i].intersect(boxes[j]).is_zero_area() {
+                continue;
+            }
+            let found = if i == j { crossings_within(a) } else { crossings_between(a, b) };
+            if !found.is_empty() {
+                pairs.insert([a.id, b.id], Arc::new(found));
+            }
+        }
+    }
+    pairs
+}
+
+/// The box in which a path can meet another one.
+fn reach(path: &Path) -> Rect {
+    let beyond = path.section.width_m() + 10.0;
+    path.plan.bounding_box().inflate(beyond, beyond)
+}
+
+/// All crossings, with what was said about them.
+fn decided(pairs: &Pairs, state: &State) -> Vec<Crossing> {
+    let mut all = Vec::new();
+    for ([first, second], crossings) in pairs {
+        let (Some(a), Some(b)) = (state.path_of(*first), state.path_of(*second)) else { continue };
+        let mut crossings = crossings.as_ref().clone();
+        decide(a, b, &mut crossings, &state.choices);
+        all.extend(crossings);
+    }
+    all
+}
+
+/// Stations and heights at the crossings of each path. Paths that hang together through crossings are solved together; where neither paths nor crossings changed, heights are those of before.
+fn heights(
+    before: Option<&Results>,
+    state: &State,
+    alone: &[Arc<Profile>],
+    crossings: &[Crossing],
+    crossings_of: &[Vec<Crossing>],
+    is_old: impl Fn(&Arc<Path>) -> bool,
+) -> (Vec<Vec<[f64; 2]>>, Option<Unordered>) {
+    let index = |id: PathId| state.paths.binary_search_by_key(&id, |p| p.id).ok();
+    let mut group: Vec<usize> = (0..state.paths.len()).collect();
+    let root = |group: &mut Vec<usize>, mut i: usize| {
+        while group[i] != i {
+            group[i] = group[group[i]];
+            i = group[i];
+        }
+        i
+    };
+    for crossing in crossings {
+        if let [Some(a), Some(b)] = crossing.places().map(|p| index(p.path)) {
+            let (a, b) = (root(&mut group, a), root(&mut group, b));
+            group[a.max(b)] = a.min(b);
+        }
+    }
+    let mut members: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+    for i in 0..state.paths.len() {
+        members.entry(root(&mut group, i)).or_default().push(i);
+    }
+    let mut wanted = vec![Vec::new(); state.paths.len()];
+    let mut unordered = None;
+    for members in members.values() {
+        let old = |i: usize| before.and_then(|r| r.path(state.paths[i].id));
+        let is_same =
+            |&i: &usize| is_old(&state.paths[i]) && old(i).is_some_and(|old| old.crossings == crossings_of[i]);
+        if members.iter().all(is_same) {
+            for &i in members {
+                wanted[i] = old(i).map(|old| old.wanted.clone()).unwrap_or_default();
+            }
+            continue;
+        }
+        let paths: Vec<&Path> = members.iter().map(|&i| state.paths[i].as_ref()).collect();
+        let profiles: Vec<&Profile> = members.iter().map(|&i| alone[i].as_ref()).collect();
+        let ids: BTreeSet<PathId> = paths.iter().map(|p| p.id).collect();
+        let own: Vec<usize> = (0..crossings.len()).filter(|&c| ids.contains(&crossings[c].first.path)).collect();
+        let of_group: Vec<Crossing> = own.iter().map(|&c| crossings[c]).collect();
+        match wanted_heights(&paths, &profiles, &of_group) {
+            Ok(heights) => {
+                for (&i, heights) in members.iter().zip(heights) {
+                    wanted[i] = heights;
+                }
+            }
+            Err(ring) => {
+                unordered = Some(Unordered { crossings: ring.crossings.iter().map(|&c| own[c]).collect() });
+            }
+        }
+    }
+    (wanted, unordered)
+}

@@ -1,0 +1,310 @@
+//! The heights of paths that cross: plans, the ground and crossings come in, an elevation profile for each path goes out (section 3.4.4 of the thesis).
+
+use super::contact::{Crossing, Meeting, PathPlace};
+use super::path::{HeightMode, Path, PathId};
+use crate::heights::{CrossingHeights, HeightError, HeightPoint, Over, PathPoints};
+use crate::profile::{Knot, Profile};
+use crate::smoothing::smoothed;
+use crate::terrain::Heightfield;
+use std::f64::consts::TAU;
+
+/// The ground is looked at in steps of this length along a path, m.
+const STEP_M: f64 = 5.0;
+
+/// Waves of the ground of this length are halved in the profile of a path, m for each km/h: at 60 km/h those of 150 m.
+const WAVE_M_PER_KMH: f64 = 2.5;
+
+/// A path over water lies this much above it, m.
+const FREEBOARD_M: f64 = 2.0;
+
+/// What a path is raised or lowered at a crossing comes to an end within a length in which its grade takes up this share of the steepest it may have.
+const RAMP_SHARE: f64 = 0.4;
+
+/// No such ramp is shorter, m.
+const LEAST_RAMP_M: f64 = 40.0;
+
+/// The unit of arc length in equation 3.2, m: a grade is a clearance over this length. The longer it is, the more a path is kept level.
+const LENGTH_SCALE_M: f64 = 60.0;
+
+/// Over how much of a path beside drawn heights its own profile leads to them, m for each km/h.
+const TRANSITION_M_PER_KMH: f64 = 1.0;
+
+/// A profile that a path would have alone: the ground along it, made fair, with what was drawn.
+pub(crate) fn alone(path: &Path, ground: &Heightfield, water_m: Option<f64>) -> Profile {
+    let length = path.length_m();
+    let closed = path.plan.is_closed();
+    let count = (length / STEP_M).ceil().max(2.0) as usize;
+    let step = length / count as f64;
+    let height = |station: f64| {
+        let z = ground.smooth_height(path.plan.point_at(if closed { station.rem_euclid(length) } else { station }));
+        water_m.map_or(z, |water| z.max(water + FREEBOARD_M))
+    };
+    // A closed path is gone round a little further at both ends, so that it is as fair there as elsewhere.
+    let wave = WAVE_M_PER_KMH * path.section.speed_kmh;
+    let around = if closed { ((2.0 * wave / step).ceil() as usize).min(count) } else { 0 };
+    let points: Vec<[f64; 2]> = (0..=count + 2 * around)
+        .map(|i| (i as f64 - around as f64) * step)
+        .map(|station| [station, height(station)])
+        .collect();
+    let profile = if path.heights == HeightMode::Draped {
+        Profile::catmull_rom(&points)
+    } else {
+        let stiffness = libm::pow(wave / TAU, 4.0) / step;
+        smoothed(&points, &vec![1.0; points.len()], stiffness)
+    };
+    let profile = profile.expect("stations ascend and heights are finite");
+    let profile = if closed { closed_up(&profile, length) } else { ends_exactly(&profile, length) };
+    path.drawn.iter().fold(profile, |profile, drawn| {
+        let part = drawn_profile(&drawn.points_m);
+        let transition = TRANSITION_M_PER_KMH * path.section.speed_kmh;
+        part.and_then(|part| profile.with_part(&part, transition).ok()).unwrap_or(profile)
+    })
+}
+
+/// Drawn heights as a profile: evened out, since a hand trembles, but through the ends of what was drawn.
+fn drawn_profile(points: &[[f64; 2]]) -> Option<Profile> {
+    let extent = points.last()?[0] - points.first()?[0];
+    let mut weights = vec![1.0; points.len()];
+    (weights[0], weights[points.len() - 1]) = (100.0, 100.0);
+    let wave = 0.25 * extent;
+    let step = extent / points.len() as f64;
+    smoothed(points, &weights, libm::pow(wave / TAU, 4.0) / step.max(1e-6)).ok()
+}
+
+/// The part of a profile around a closed path that is gone through once, ending as it begins.
+fn closed_up(profile: &Profile, length: f64) -> Profile {
+    let part = profile.part([0.0, length]).expect("a path has a length");
+    let mut knots = part.knots().to_vec();
+    let first = knots[0];
+    if let Some(last) = knots.last_mut() {
+        *last = Knot { station_m: length, ..first };
+    }
+    Profile::new(knots).expect("as before")
+}
+
+/// Rounding must not leave the profile shorter than its path.
+fn ends_exactly(profile: &Profile, length: f64) -> Profile {
+    let mut knots = profile.knots().to_vec();
+    if let Some(last) = knots.last_mut() {
+        last.station_m = length;
+    }
+    Profile::new(knots).expect("as before")
+}
+
+/// What could not be done about heights.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Unordered {
+    /// The crossings that cannot hold together: each passes over the next, and the last over the first, at one place.
+    pub crossings: Vec<usize>,
+}
+
+/// Stations and heights at the crossings of paths, m, in the order of `paths`: `alone` are the profiles that they would have by themselves. Crossings of paths that are not among
+/// them are left out.
+///
+/// # Errors
+/// When crossings at one place ask for a ring of who passes over whom.
+pub(crate) fn wanted_heights(
+    paths: &[&Path],
+    alone: &[&Profile],
+    crossings: &[Crossing],
+) -> Result<Vec<Vec<[f64; 2]>>, Unordered> {
+    let of = |id: PathId| paths.iter().position(|p| p.id == id);
+    let joined: Vec<(usize, &Crossing, [usize; 2])> = crossings
+        .iter()
+        .enumerate()
+        .filter_map(|(i, c)| Some((i, c, [of(c.first.path)?, of(c.second.path)?])))
+        .collect();
+    let stations = stations(paths, &joined);
+    let point = |path: usize, station: f64| {
+        let point = stations[path].partition_point(|s| *s < station - SAME_M);
+        HeightPoint { path, point }
+    };
+    let ends = |c: &Crossing, [a, b]: [usize; 2]| [point(a, c.first.station_m), point(b, c.second.station_m)];
+    let mut problem = CrossingHeights { length_scale_m: LENGTH_SCALE_M, ..CrossingHeights::default() };
+    problem.paths = stations.iter().map(|stations_m| PathPoints { stations_m: stations_m.clone() }).collect();
+    let mut over_of = Vec::new();
+    let mut clearance: f64 = 0.0;
+    for (i, c, at) in &joined {
+        let [first, second] = ends(c, *at);
+        match c.meeting {
+            Meeting::Level => problem.level.push([first, second]),
+            Meeting::Over => problem.over.push(Over { upper: first, lower: second }),
+            Meeting::Under => problem.over.push(Over { upper: second, lower: first }),
+        }
+        if c.meeting != Meeting::Level {
+            over_of.push(*i);
+            clearance = clearance.max(separation_m(paths, c));
+        }
+    }
+    let heights = problem.solve().map_err(|error| match error {
+        HeightError::Ring { overs, .. } => Unordered { crossings: overs.iter().map(|o| over_of[*o]).collect() },
+        other => unreachable!("stations ascend and all points exist: {other}"),
+    })?;
+    let heights = heights.scaled_to_clearance(&problem.over, clearance);
+    // Both paths are measured from one ground at a crossing, or they would not meet.
+    let mut wanted: Vec<Vec<Option<f64>>> = stations.iter().map(|s| vec![None; s.len()]).collect();
+    let own = |p: HeightPoint| alone[p.path].at(stations[p.path][p.point]).height_m;
+    let is_drawn = |p: HeightPoint| {
+        let station = stations[p.path][p.point];
+        let covers = |d: &super::path::DrawnHeights| match (d.points_m.first(), d.points_m.last()) {
+            (Some(a), Some(b)) => (a[0]..=b[0]).contains(&station),
+            _ => false,
+        };
+        paths[p.path].drawn.iter().any(covers)
+    };
+    for group in groups(&joined, &stations, ends) {
+        let drawn: Vec<f64> = group.iter().filter(|p| is_drawn(**p)).map(|p| own(*p)).collect();
+        let ground = group.iter().map(|p| own(*p)).sum::<f64>() / group.len() as f64;
+        for &p in &group {
+            let free = ground + heights.paths[p.path][p.point];
+            wanted[p.path][p.point] = Some(if is_drawn(p) { own(p) } else { free });
+        }
+        // Where paths meet and one of them was drawn, it decides.
+        if let Some(&height) = drawn.first() {
+            for (_, c, at) in joined.iter().filter(|(_, c, _)| c.meeting == Meeting::Level) {
+                let [p, q] = ends(c, *at);
+                if group.contains(&p) {
+                    for p in [p, q].into_iter().filter(|p| !is_drawn(*p)) {
+                        wanted[p.path][p.point] = Some(height);
+                    }
+                }
+            }
+        }
+    }
+    keep_clear(paths, &joined, ends, is_drawn, &mut wanted);
+    let known = |i: usize| {
+        let all = stations[i].iter().zip(&wanted[i]);
+        all.filter_map(|(s, height)| height.map(|height| [*s, height])).collect()
+    };
+    Ok((0..paths.len()).map(known).collect())
+}
+
+/// Crossings nearer to each other along a path than this are one place, m.
+const SAME_M: f64 = 0.05;
+
+/// Where each path has crossings, arc lengths, ascending, none twice.
+fn stations(paths: &[&Path], joined: &[(usize, &Crossing, [usize; 2])]) -> Vec<Vec<f64>> {
+    let mut stations: Vec<Vec<f64>> = vec![Vec::new(); paths.len()];
+    for (_, c, [a, b]) in joined {
+        stations[*a].push(c.first.station_m);
+        stations[*b].push(c.second.station_m);
+    }
+    for list in &mut stations {
+        list.sort_by(f64::total_cmp);
+        list.dedup_by(|later, earlier| *later - *earlier <= SAME_M);
+    }
+    stations
+}
+
+/// Points that are at one place in plan, in groups.
+fn groups(
+    joined: &[(usize, &Crossing, [usize; 2])],
+    stations: &[Vec<f64>],
+    ends: impl Fn(&Crossing, [usize; 2]) -> [HeightPoint; 2],
+) -> Vec<Vec<HeightPoint>> {
+    let mut group_of: Vec<Vec<Option<usize>>> = stations.iter().map(|s| vec![None; s.len()]).collect();
+    let mut groups: Vec<Vec<HeightPoint>> = Vec::new();
+    for (_, c, at) in joined {
+        let [p, q] = ends(c, *at);
+        let (a, b) = (group_of[p.path][p.point], group_of[q.path][q.point]);
+        let into = match (a, b) {
+            (None, None) => {
+                groups.push(Vec::new());
+                groups.len() - 1
+            }
+            (Some(a), Some(b)) if a != b => {
+                let moved = std::mem::take(&mut groups[a.max(b)]);
+                for m in &moved {
+                    group_of[m.path][m.point] = Some(a.min(b));
+                }
+                groups[a.min(b)].extend(moved);
+                a.min(b)
+            }
+            (Some(a), _) | (None, Some(a)) => a,
+        };
+        for r in [p, q] {
+            if group_of[r.path][r.point].is_none() {
+                group_of[r.path][r.point] = Some(into);
+                groups[into].push(r);
+            }
+        }
+    }
+    groups.retain(|g| !g.is_empty());
+    groups
+}
+
+/// What must lie between the surfaces of two paths that pass over each other, m: what the lower needs free and what the upper is thick.
+pub(crate) fn separation_m(paths: &[&Path], crossing: &Crossing) -> f64 {
+    let section = |place: PathPlace| paths.iter().find(|p| p.id == place.path).map(|p| &p.section);
+    let Some([upper, lower]) = crossing.upper_lower() else { return 0.0 };
+    section(upper).map_or(0.0, |s| s.thickness_m) + section(lower).map_or(0.0, |s| s.clearance_m)
+}
+
+/// Where the heights of one of two paths were drawn, the other makes way.
+fn keep_clear(
+    paths: &[&Path],
+    joined: &[(usize, &Crossing, [usize; 2])],
+    ends: impl Fn(&Crossing, [usize; 2]) -> [HeightPoint; 2],
+    is_drawn: impl Fn(HeightPoint) -> bool,
+    wanted: &mut [Vec<Option<f64>>],
+) {
+    for (_, c, at) in joined.iter().filter(|(_, c, _)| c.meeting != Meeting::Level) {
+        let [first, second] = ends(c, *at);
+        let (upper, lower) = if c.meeting == Meeting::Over { (first, second) } else { (second, first) };
+        let height = |p: HeightPoint, wanted: &[Vec<Option<f64>>]| wanted[p.path][p.point].unwrap_or(0.0);
+        let lacks = separation_m(paths, c) - (height(upper, wanted) - height(lower, wanted));
+        if !(lacks > 0.0) {
+            continue;
+        }
+        match (is_drawn(upper), is_drawn(lower)) {
+            (true, false) => wanted[lower.path][lower.point] = Some(height(lower, wanted) - lacks),
+            (false, true) => wanted[upper.path][upper.point] = Some(height(upper, wanted) + lacks),
+            // Both were drawn as they are: the check of clearances says so.
+            _ => {}
+        }
+    }
+}
+
+/// The profile of a path with the wanted heights at its crossings, stations ascending, leading back beside them to what it is alone.
+pub(crate) fn profile_with(path: &Path, alone: &Profile, wanted: &[[f64; 2]]) -> Profile {
+    let length = path.length_m();
+    let by: Vec<[f64; 2]> =
+        wanted.iter().map(|[s, height]| [s.clamp(0.0, length), height - alone.at(*s).height_m]).collect();
+    if by.is_empty() {
+        return alone.clone();
+    }
+    let ramp = |by: f64| (by.abs() * 1.5 / (RAMP_SHARE * path.section.max_grade)).max(LEAST_RAMP_M);
+    // Around a closed path what lies before its start is what lies before its end.
+    let closed = path.plan.is_closed();
+    let around: Vec<[f64; 2]> = if closed {
+        let shifted = |turn: f64| by.iter().map(move |[s, d]| [s + turn * length, *d]);
+        shifted(-1.0).chain(shifted(0.0)).chain(shifted(1.0)).collect()
+    } else {
+        by.clone()
+    };
+    let mut points: Vec<[f64; 2]> = Vec::new();
+    for (i, &[s, d]) in around.iter().enumerate() {
+        let before = if i == 0 { f64::NEG_INFINITY } else { around[i - 1][0] + ramp(around[i - 1][1]) };
+        if s - ramp(d) > before {
+            points.push([s - ramp(d), 0.0]);
+        }
+        if points.last().is_none_or(|p| s > p[0]) {
+            points.push([s, d]);
+        }
+        let after = around.get(i + 1).map_or(f64::INFINITY, |[s, d]| s - ramp(*d));
+        if s + ramp(d) < after {
+            points.push([s + ramp(d), 0.0]);
+        }
+    }
+    let [first, last] = [points[0], points[points.len() - 1]];
+    if first[0] > 0.0 {
+        points.insert(0, [first[0] - length, first[1]]);
+    }
+    if last[0] < length {
+        points.push([last[0] + length, last[1]]);
+    }
+    let correction =
+        if path.heights == HeightMode::Draped { Profile::catmull_rom(&points) } else { Profile::monotone(&points) };
+    let sum = correction.and_then(|correction| alone.plus(&correction));
+    sum.unwrap_or_else(|_| alone.clone())
+}

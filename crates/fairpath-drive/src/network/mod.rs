@@ -1,0 +1,21 @@
+//! The network: paths, where they cross, how high they lie there, and what carries them.
+
+mod contact;
+mod elevation;
+mod junction;
+mod path;
+mod sketch;
+mod structure;
+
+pub use contact::{Choice, Crossing, Meeting, PathPlace};
+pub use elevation::Unordered;
+pub use junction::{Arm, Junction, Turning, Way};
+pub use path::{DrawnHeights, HeightMode, Path, PathId, SpeedZone};
+pub use sketch::SketchScale;
+pub use structure::{Carrier, Structure, StructureLimits};
+
+pub(crate) use contact::{crossings_between, crossings_within, decide};
+pub(crate) use elevation::{alone, profile_with, wanted_heights};
+pub(crate) use junction::junctions;
+pub(crate) use sketch::points_along;
+pub(crate) use structure::structures;

@@ -1,0 +1,58 @@
+//! Documents: what commands lead to, and that undoing leads back.
+
+use fairpath_curve::Point;
+use fairpath_drive::{Carrier, Command, Document, Meeting, NoFiles, volumes_m3};
+
+/// A document to which commands were done, given as the JSON of a script.
+fn document(commands: &[&str]) -> Document {
+    let mut document = Document::new();
+    for text in commands {
+        let command: Command = serde_json::from_str(text).unwrap_or_else(|e| panic!("{text}: {e}"));
+        document.run(command, &NoFiles).unwrap_or_else(|e| panic!("{text}: {e}"));
+    }
+    document
+}
+
+const HILLS: &str = r#"{"do":"terrain","synthetic":"hills","size":513,"cell_m":2.0,"seed":7}"#;
+
+#[test]
+fn a_road_over_hills_has_its_ground_shaped_and_both_ways_of_adding_up_volumes_agree() {
+    let document = document(&[HILLS, r#"{"do":"sketch","points_m":[[100,100],[300,180],[500,420],[700,480],[900,800]],"layer":"road"}"#]);
+    let results = document.results().unwrap();
+    let road = &results.paths[0];
+    println!("{:?}", road.structures);
+    let by_areas = volumes_m3(&road.sections);
+    let by_grid = results.ground.volumes_m3();
+    println!("{by_areas:?} {by_grid:?}");
+    for i in 0..2 {
+        assert!(by_areas[i] > 100.0, "{by_areas:?}");
+        assert!((by_areas[i] / by_grid[i] - 1.0).abs() < 0.01, "{by_areas:?} {by_grid:?}");
+    }
+    let length = road.path.length_m();
+    let inner = |s: f64| s > 3.0 && s < length - 3.0;
+    for section in road.sections.iter().filter(|s| s.on_ground && inner(s.station_m)) {
+        let ground = results.ground.height(section.point);
+        let bed = section.height_m - road.path.section.bed_m;
+        assert!((ground - bed).abs() < 0.02, "at {}: {ground} for {bed}", section.station_m);
+    }
+}
+
+#[test]
+fn a_break_goes_under() {
+    let document = document(&[
+        HILLS,
+        r#"{"do":"sketch","points_m":[[100,500],[300,500],[480,500]],"layer":"road"}"#,
+        r#"{"do":"sketch","points_m":[[505,500],[700,500],[900,500]],"layer":"road"}"#,
+        r#"{"do":"sketch","points_m":[[492,100],[492,480],[492,900]],"layer":"road"}"#,
+    ]);
+    let results = document.results().unwrap();
+    assert_eq!(results.paths.len(), 2, "the broken one is one path");
+    assert_eq!(results.crossings.len(), 1);
+    let crossing = results.crossings[0];
+    assert_eq!(crossing.meeting, Meeting::Under);
+    assert!((crossing.point - Point::new(492.0, 500.0)).hypot2().sqrt() < 2.0, "{crossing:?}");
+    let height = |i: usize, s: f64| results.paths[i].profile.at(s).height_m;
+    let free = height(1, crossing.second.station_m) - height(0, crossing.first.station_m);
+    assert!(free > 5.4 && free < 8.0, "{free}");
+    assert!(results.paths[1].structures.iter().any(|s| s.carrier == Carrier::Bridge && s.over_path));
+}
