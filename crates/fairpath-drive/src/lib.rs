@@ -27,13 +27,17 @@
 
 mod document;
 mod engineered;
+mod furniture;
 mod ground;
 mod heights;
 mod network;
 mod profile;
 mod range;
+mod rules;
+mod scene;
 mod section;
 mod smoothing;
+mod speed;
 mod terrain;
 
 pub use document::{
@@ -45,6 +49,7 @@ pub use engineered::{
     EngineeredRoad, FixedPoint, GradeLimits, HeightBound, InputProblem, MARGIN, Margin, MeetAt, NamedPoint, RoadPoint,
     STIFFNESS_M4, Shortfall, ShortfallKind, WeightedStretch,
 };
+pub use furniture::{Pillar, Sign, SignKind, Tree, pillars};
 pub use ground::{
     CrossSection, EarthworkOptions, FineGrid, Ground, MassHaul, Side, Soil, SoilRegion, Soils, Tile, TileIndex,
     mass_haul, volumes_m3,
@@ -56,8 +61,11 @@ pub use network::{
 };
 pub use profile::{Elevation, Knot, Profile, ProfileError};
 pub use range::OutOfRange;
+pub use rules::{Breach, DesignRules, Rule, SpeedRule};
+pub use scene::{Finish, Instances, Part, Placement, Scene, SceneOptions};
 pub use section::{Crosses, Lane, LaneKind, Marking, Material, Piece, Section, SectionError};
 pub use smoothing::smoothed;
+pub use speed::{COMFORTABLE_M_S2, smooth_speeds};
 pub use terrain::{
     CHUNK, COARSEST, Cells, GeoReference, Heightfield, Landscape, MOST_HEIGHT_M, MOST_SAMPLES, NeighbourLevels, Ray,
     Samples, SyntheticTerrain, Terrain, TerrainError, VoidReport, fill_voids,

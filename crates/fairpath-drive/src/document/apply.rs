@@ -174,8 +174,8 @@ pub(super) fn apply(
         Command::Layer { path, layer } => {
             each(state, &mut next, Some(path), &mut outcome, |path| path.layer.clone_from(layer))?;
         }
-        Command::Settings { structures, earthwork, seed } => {
-            let settings = &mut next.settings;
+        Command::Settings { structures, earthwork, rules, seed } => {
+            let mut settings = state.settings;
             if let Some(limits) = structures {
                 limits.validate()?;
                 settings.structures = *limits;
@@ -184,7 +184,12 @@ pub(super) fn apply(
                 options.validate()?;
                 settings.earthwork = *options;
             }
+            if let Some(rules) = rules {
+                rules.validate()?;
+                next.rules = Arc::new(rules.clone());
+            }
             settings.seed = seed.unwrap_or(settings.seed);
+            next.settings = settings;
         }
     }
     Ok((next, outcome))

@@ -2,6 +2,7 @@
 
 use crate::ground::{EarthworkOptions, Soil};
 use crate::network::{HeightMode, Meeting, StructureLimits};
+use crate::rules::DesignRules;
 use crate::section::Section;
 use crate::terrain::Landscape;
 use schemars::JsonSchema;
@@ -167,6 +168,9 @@ pub enum Command {
         /// How the ground beside paths is shaped.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         earthwork: Option<EarthworkOptions>,
+        /// The rules by which signs are posted and the design is checked.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        rules: Option<DesignRules>,
         /// The seed of everything random.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         seed: Option<u64>,

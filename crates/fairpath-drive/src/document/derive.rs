@@ -1,10 +1,11 @@
 //! What follows from a state: crossings, heights, structures and the shaped ground. Only what a change touches is worked out anew; the rest is shared with what followed from the
 //! state before, so that the result is the same as if all were new.
 
-use super::state::{LaidTerrain, State};
+use super::state::{FoliageRegion, LaidTerrain, State};
 use crate::ground::{CrossSection, Ground, Hits, TileIndex, cross_sections, hits};
+use crate::furniture::{Sign, Tree, signs, stopping_arms, tiles_of, trees_on};
 use crate::network::{
-    Crossing, Junction, Path, PathId, Structure, Unordered, alone, crossings_between, crossings_within, decide,
+    Arm, Crossing, Junction, Path, PathId, Structure, Unordered, alone, crossings_between, crossings_within, decide,
     junctions, profile_with, structures, wanted_heights,
 };
 use crate::profile::Profile;
@@ -45,6 +46,10 @@ pub struct Results {
     pub crossings: Vec<Crossing>,
     /// All intersections of roads.
     pub junctions: Vec<Arc<Junction>>,
+    /// The signs of each path, in the paths' order.
+    pub signs: Vec<Arc<Vec<Sign>>>,
+    /// The trees, by tiles of the fine grid.
+    pub trees: BTreeMap<TileIndex, Arc<Vec<Tree>>>,
     /// The shaped ground.
     pub ground: Ground,
     /// Crossings that ask for a ring, where there are such; the heights of their paths know nothing of crossings.
@@ -145,7 +150,90 @@ pub(super) fn derive(before: Option<(&State, &Results)>, state: &State, terrain:
         old_ground.reshaped(&dirty, &corridors)
     };
     let junctions = intersections(before.map(|(_, r)| r), state, &paths, &crossings);
-    Results { paths, crossings, junctions, ground, unordered, pairs }
+    let signs = posted(before.filter(|(old, _)| Arc::ptr_eq(&old.rules, &state.rules)).map(|(_, r)| r), state, &paths, &junctions);
+    let trees = planted(before, state, terrain, &paths, &ground, &dirty);
+    Results { paths, crossings, junctions, signs, trees, ground, unordered, pairs }
+}
+
+/// The signs of all paths; those of a path that is as it was, with its intersections, are kept.
+fn posted(
+    before: Option<&Results>,
+    state: &State,
+    paths: &[Arc<PathResult>],
+    junctions: &[Arc<Junction>],
+) -> Vec<Arc<Vec<Sign>>> {
+    let rules = &state.rules;
+    let mut by_path: BTreeMap<PathId, Vec<&Arc<Junction>>> = BTreeMap::new();
+    for junction in junctions {
+        let ids: BTreeSet<PathId> = junction.spans.iter().map(|s| s.0).collect();
+        ids.into_iter().for_each(|id| by_path.entry(id).or_default().push(junction));
+    }
+    let mut old: BTreeMap<PathId, Vec<&Arc<Junction>>> = BTreeMap::new();
+    for junction in before.into_iter().flat_map(|b| &b.junctions) {
+        let ids: BTreeSet<PathId> = junction.spans.iter().map(|s| s.0).collect();
+        ids.into_iter().for_each(|id| old.entry(id).or_default().push(junction));
+    }
+    let none = Vec::new();
+    let path_of = |id: PathId| state.path_of(id).map(Arc::as_ref);
+    let one = |result: &Arc<PathResult>| {
+        let id = result.path.id;
+        let (own, former) = (by_path.get(&id).unwrap_or(&none), old.get(&id).unwrap_or(&none));
+        let index = before.and_then(|b| b.paths.binary_search_by_key(&id, |p| p.path.id).ok());
+        let same_junctions = own.len() == former.len() && own.iter().zip(former).all(|(a, b)| Arc::ptr_eq(a, b));
+        if let (Some(i), Some(b), true) = (index, before, same_junctions)
+            && Arc::ptr_eq(&b.paths[i], result)
+        {
+            return b.signs[i].clone();
+        }
+        let stops: Vec<Arm> = own.iter().flat_map(|j| stopping_arms(j, path_of)).collect();
+        let own: Vec<&Junction> = own.iter().map(|j| j.as_ref()).collect();
+        Arc::new(signs(&result.path, &result.profile, &own, &stops, rules))
+    };
+    paths.iter().map(one).collect()
+}
+
+/// The trees of all tiles; only those are planted anew in and beside which something changed.
+fn planted(
+    before: Option<(&State, &Results)>,
+    state: &State,
+    terrain: &LaidTerrain,
+    paths: &[Arc<PathResult>],
+    ground: &Ground,
+    dirty: &BTreeSet<TileIndex>,
+) -> BTreeMap<TileIndex, Arc<Vec<Tree>>> {
+    let grid = ground.grid();
+    let same_seed = before.is_some_and(|(old, _)| old.settings.seed == state.settings.seed);
+    let mut trees = before.filter(|_| same_seed).map(|(_, r)| r.trees.clone()).unwrap_or_default();
+    let old_regions = before.filter(|_| same_seed).map_or(&[][..], |(old, _)| &old.foliage);
+    let is_in = |regions: &[Arc<FoliageRegion>], r: &Arc<FoliageRegion>| regions.iter().any(|o| Arc::ptr_eq(o, r));
+    let came = state.foliage.iter().filter(|r| !is_in(old_regions, r));
+    let went = old_regions.iter().filter(|r| !is_in(&state.foliage, r));
+    let mut which: BTreeSet<TileIndex> = came.chain(went).flat_map(|r| tiles_of(grid, r)).collect();
+    if !state.foliage.is_empty() {
+        for &[column, row] in dirty {
+            for c in column.saturating_sub(1)..=column + 1 {
+                which.extend((row.saturating_sub(1)..=row + 1).map(|r| [c, r]));
+            }
+        }
+    }
+    let corridors: Vec<&Hits> = paths.iter().map(|p| &p.hits).collect();
+    for tile in which {
+        // Most paths are far away.
+        let near: Vec<&Hits> = corridors.iter().copied().filter(|hits| is_near(hits, tile)).collect();
+        let new = trees_on(tile, ground, &state.foliage, &near, terrain.water_m, state.settings.seed);
+        if new.is_empty() {
+            trees.remove(&tile);
+        } else {
+            trees.insert(tile, Arc::new(new));
+        }
+    }
+    trees
+}
+
+/// Whether a corridor lies on a tile or one beside it.
+fn is_near(hits: &Hits, [column, row]: TileIndex) -> bool {
+    (column.saturating_sub(1)..=column + 1)
+        .any(|c| hits.range([c, row.saturating_sub(1)]..=[c, row + 1]).next().is_some())
 }
 
 /// All intersections; those whose roads are as they were are kept.

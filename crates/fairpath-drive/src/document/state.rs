@@ -2,6 +2,7 @@
 
 use crate::ground::{EarthworkOptions, Soils};
 use crate::network::{Choice, Path, PathId, StructureLimits};
+use crate::rules::DesignRules;
 use crate::section::Section;
 use crate::terrain::{GeoReference, Heightfield};
 use fairpath_curve::Point;
@@ -56,6 +57,8 @@ pub struct State {
     pub sections: Arc<BTreeMap<String, Arc<Section>>>,
     /// What holds for the whole document.
     pub settings: Settings,
+    /// The rules by which signs are posted and the design is checked.
+    pub rules: Arc<DesignRules>,
     /// How many paths there ever were: the next one's id.
     pub paths_so_far: u32,
 }

@@ -8,14 +8,11 @@ use super::demand::{Asked, Demand, Sense};
 use super::error::EngineeredError;
 use super::program::{End, Outcome, Program};
 use super::shortfall::{Shortfall, ShortfallKind};
-use super::solve::{Part, greatest_bend, negated, shifted};
+use super::solve::{PULL, Part, greatest_bend, negated, shifted};
 use crate::profile::Profile;
 
 /// The part of squares in what is made least.
 const SQUARES: f64 = 0.01;
-
-/// What the square of a metre off the ground costs, where nothing else tells how high a road is: too little to make any limit give.
-const PULL: f64 = 1e-9;
 
 /// A limit gives if it is exceeded by more than this share of itself, or of a metre.
 const EXCEEDED: f64 = 1e-7;
@@ -56,8 +53,9 @@ type Rows = Vec<Vec<usize>>;
 /// The program in which grades and bends give.
 fn design_gives(part: &Part<'_>) -> (Program, Rows) {
     let mut program = Program::default();
-    let unknowns = program.unknowns(part.base.len());
-    (unknowns..part.base.len()).for_each(|i| program.square(&[(i, 1.0)], 0.0, PULL));
+    program.unknowns(part.base.len());
+    // Where nothing else tells how high a road is; too little to make any limit give.
+    (0..part.base.len()).for_each(|i| program.square(&[(i, 1.0)], 0.0, PULL));
     for (_, road, layout, first) in part.each() {
         let h = layout.step_m;
         let mut soft = |terms: &[(usize, f64)], [least, most]: [f64; 2]| {

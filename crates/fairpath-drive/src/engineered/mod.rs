@@ -24,7 +24,8 @@
 //! metre of rise. Each interval is cut into two cells; d is the mean of z − ground over a cell, and the earth of a cell is its length times the area there,
 //! times what a cubic metre of cut or of fill counts. That is less than the true volume only in a cell in which the road crosses the ground or the
 //! ground is rough; [`Earthwork`] measures the true one. With fill u ≥ 0 and cut u − d ≥ 0 as unknowns this is a convex quadratic program:
-//! any minimum is the least of all. [`STIFFNESS_M4`] times ∫ z″² ds is added, so that where no earthwork counts (bridges, tunnels) the road is still one definite curve.
+//! any minimum is the least of all. [`STIFFNESS_M4`] times ∫ z″² ds is added, and next to nothing for being off the ground, so that where no earthwork counts
+//! (bridges, tunnels) the road is still one definite curve.
 //!
 //! The program is solved by the primal-dual interior-point method of Goulart and Chen (*Clarabel: An interior-point solver for conic programs with
 //! quadratic objectives*, 2024), separately for each part of the network that hangs together.

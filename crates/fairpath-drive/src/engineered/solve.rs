@@ -15,6 +15,10 @@ use crate::profile::Profile;
 /// all along counts as much as 25 µm of fill on a platform of 10 m.
 pub const STIFFNESS_M4: f64 = 1000.0;
 
+/// What the square of a metre off the ground costs at each coefficient, m³/m², so that a road that nothing holds has a height: a road that is 100 m off the ground
+/// pays the hundredth of a litre for each knot.
+pub(super) const PULL: f64 = 1e-9;
+
 /// Room that is kept within the limits while the program is solved.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Margin {
@@ -186,6 +190,7 @@ impl<'a> Part<'a> {
     fn program(&self, room: f64) -> Program {
         let mut program = Program::default();
         program.unknowns(self.base.len());
+        (0..self.base.len()).for_each(|i| program.square(&[(i, 1.0)], 0.0, 2.0 * PULL));
         for (_, road, layout, first) in self.each() {
             let ground = Ground(&road.ground);
             for interval in 0..layout.count {

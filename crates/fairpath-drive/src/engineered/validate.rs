@@ -3,13 +3,18 @@
 use super::error::InputProblem;
 use super::network::{EngineeredNetwork, EngineeredRoad, RoadPoint};
 use super::spline::Layout;
+use crate::MOST_HEIGHT_M;
 
 /// Most intervals of a network: 2²⁰, ten thousand kilometres with knots each 10 m.
 const MOST_INTERVALS: f64 = 1_048_576.0;
 
-const FINITE: &str = "it must be finite";
-const POSITIVE: &str = "it must be positive and finite";
-const NOT_NEGATIVE: &str = "it must be 0 or more, and finite";
+/// Least and greatest of what is positive: whatever is beyond is a slip, and would leave nothing of other numbers beside it.
+const POSITIVES: [f64; 2] = [1e-6, 1e9];
+
+const HEIGHT: &str = "heights must be within ±100,000 m";
+const GRADE: &str = "grades must be within ±1000";
+const POSITIVE: &str = "it must be positive, from a millionth to a thousand million";
+const NOT_NEGATIVE: &str = "it must be 0 or more, up to a thousand million";
 const ON_ROAD: &str = "it must be a station of the road, from 0 to its length";
 
 /// All that is wrong with a network.
@@ -57,16 +62,20 @@ impl Problems {
         }
     }
 
-    fn finite(&mut self, field: String, found: f64) {
-        self.check(field, found, found.is_finite(), FINITE);
+    fn height(&mut self, field: String, found: f64) {
+        self.check(field, found, found.abs() <= MOST_HEIGHT_M, HEIGHT);
+    }
+
+    fn grade(&mut self, field: String, found: f64) {
+        self.check(field, found, found.abs() <= 1000.0, GRADE);
     }
 
     fn positive(&mut self, field: String, found: f64) {
-        self.check(field, found, found > 0.0 && found.is_finite(), POSITIVE);
+        self.check(field, found, found >= POSITIVES[0] && found <= POSITIVES[1], POSITIVE);
     }
 
     fn not_negative(&mut self, field: String, found: f64) {
-        self.check(field, found, found >= 0.0 && found.is_finite(), NOT_NEGATIVE);
+        self.check(field, found, found >= 0.0 && found <= POSITIVES[1], NOT_NEGATIVE);
     }
 
     fn of_road(&mut self, name: &str, road: &EngineeredRoad) {
@@ -82,22 +91,22 @@ impl Problems {
         self.ground(name, road);
         for (i, fixed) in road.fixed.iter().enumerate() {
             self.station(format!("{name}.fixed[{i}].station_m"), fixed.station_m, road);
-            self.finite(format!("{name}.fixed[{i}].height_m"), fixed.height_m);
+            self.height(format!("{name}.fixed[{i}].height_m"), fixed.height_m);
             if let Some(grade) = fixed.grade {
-                self.finite(format!("{name}.fixed[{i}].grade"), grade);
+                self.grade(format!("{name}.fixed[{i}].grade"), grade);
             }
         }
         for (i, bound) in road.bounds.iter().enumerate() {
             self.range(&format!("{name}.bounds[{i}]"), [bound.from_m, bound.to_m], road);
             for (side, height) in [("lowest_m", bound.lowest_m), ("highest_m", bound.highest_m)] {
                 if let Some(height) = height {
-                    self.finite(format!("{name}.bounds[{i}].{side}"), height);
+                    self.height(format!("{name}.bounds[{i}].{side}"), height);
                 }
             }
         }
         for (side, grade) in [("start_grade", road.start_grade), ("end_grade", road.end_grade)] {
             if let Some(grade) = grade {
-                self.finite(format!("{name}.{side}"), grade);
+                self.grade(format!("{name}.{side}"), grade);
             }
         }
         for (i, stretch) in road.stretches.iter().enumerate() {
@@ -116,7 +125,7 @@ impl Problems {
                 ascends,
                 "stations of the ground must ascend and be finite",
             );
-            self.finite(format!("{name}.ground[{i}][1]"), height);
+            self.height(format!("{name}.ground[{i}][1]"), height);
             last = station;
         }
         let far = "the ground must reach within one knot spacing of both ends of the road";

@@ -1,7 +1,7 @@
 //! Cross-sections of a path on the ground, as far as its slopes reach: a path with its profile and the natural ground come in, cross-sections go out.
 
 use super::soil::Soils;
-use crate::network::{Path, Structure};
+use crate::network::{Carrier, Path, Structure};
 use crate::profile::Profile;
 use crate::terrain::Heightfield;
 use fairpath_curve::{Point, Vec2};
@@ -69,8 +69,10 @@ pub struct CrossSection {
     pub height_m: f64,
     /// Height of the natural ground below the middle, m.
     pub natural_m: f64,
-    /// Whether the path lies on the ground here, not on a bridge or in a tunnel.
+    /// Whether the path lies on the ground here and shapes it: not on a bridge, in a tunnel, or as a pipe does.
     pub on_ground: bool,
+    /// Whether the path lies in a tunnel here: the ground above it is whole.
+    pub covered: bool,
     /// Left and right.
     pub sides: [Side; 2],
     /// Area of cut and of fill across, m².
@@ -124,13 +126,13 @@ pub(crate) fn cross_sections(
         verge_m: options.verge_m,
         drop_m: options.verge_drop_m,
     };
-    let one = |station_m: f64, on_ground: bool| {
+    let one = |station_m: f64, carrier: Option<Carrier>| {
         let pose = path.plan.pose_at(station_m);
         let tangent = fairpath_curve::trig::unit(pose.heading);
         let left = Vec2::new(-tangent.y, tangent.x);
         let height_m = profile.at(station_m).height_m;
         let natural_m = natural.height(pose.point);
-        let on_ground = on_ground && path.section.shapes_ground;
+        let on_ground = carrier.is_none() && path.section.shapes_ground;
         let design = design(height_m);
         let mut areas_m2 = [0.0; 2];
         let sides = [0, 1].map(|i| {
@@ -160,12 +162,13 @@ pub(crate) fn cross_sections(
             height_m,
             natural_m,
             on_ground,
+            covered: carrier == Some(Carrier::Tunnel),
             sides,
             areas_m2,
         }
     };
     let stations = stations(path, structures);
-    stations.into_iter().map(|(station, on_ground)| one(station, on_ground)).collect()
+    stations.into_iter().map(|(station, carrier)| one(station, carrier)).collect()
 }
 
 /// Follows one side from the middle until the slope meets the natural ground, adding up areas of cut and fill.
@@ -211,8 +214,8 @@ fn slope(
     side.wall = true;
 }
 
-/// Where cross-sections are taken, and whether the path lies on the ground there. The ends of bridges and tunnels have two, on either side of a hair.
-fn stations(path: &Path, structures: &[Structure]) -> Vec<(f64, bool)> {
+/// Where cross-sections are taken, and what carries the path there, if not the ground. The ends of bridges and tunnels have two, on either side of a hair.
+fn stations(path: &Path, structures: &[Structure]) -> Vec<(f64, Option<Carrier>)> {
     let length = path.length_m();
     let mut cuts = vec![0.0, length];
     let mut before = 0.0;
@@ -230,20 +233,20 @@ fn stations(path: &Path, structures: &[Structure]) -> Vec<(f64, bool)> {
     if let Some(last) = cuts.last_mut() {
         *last = length;
     }
-    let mut out: Vec<(f64, bool)> = Vec::new();
-    let on_ground = |from: f64, to: f64| {
+    let mut out: Vec<(f64, Option<Carrier>)> = Vec::new();
+    let carrier = |from: f64, to: f64| {
         let middle = 0.5 * (from + to);
-        !structures.iter().any(|s| s.from_m <= middle && middle <= s.to_m)
+        structures.iter().find(|s| s.from_m <= middle && middle <= s.to_m).map(|s| s.carrier)
     };
     for pair in cuts.windows(2) {
-        let ground = on_ground(pair[0], pair[1]);
+        let carrier = carrier(pair[0], pair[1]);
         let parts = ((pair[1] - pair[0]) / FURTHEST_M).ceil().max(1.0) as usize;
-        if out.last().is_none_or(|(s, g)| *s != pair[0] || *g != ground) {
-            out.push((pair[0], ground));
+        if out.last().is_none_or(|(s, c)| *s != pair[0] || *c != carrier) {
+            out.push((pair[0], carrier));
         }
         for i in 1..=parts {
             let station = if i == parts { pair[1] } else { pair[0] + (pair[1] - pair[0]) * i as f64 / parts as f64 };
-            out.push((station, ground));
+            out.push((station, carrier));
         }
     }
     out

@@ -56,9 +56,14 @@ impl Ground {
     }
 
     /// The tiles in which something was shaped.
-    #[must_use]
     pub fn shaped_tiles(&self) -> impl Iterator<Item = TileIndex> + '_ {
         self.tiles.keys().copied()
+    }
+
+    /// Column and row of every sample that was shaped, tile by tile.
+    pub fn shaped_samples(&self) -> impl Iterator<Item = [usize; 2]> + '_ {
+        let grid = self.grid;
+        self.tiles.iter().flat_map(move |(&tile, shaped)| shaped.samples.iter().map(move |s| grid.sample_of(tile, s.0)))
     }
 
     /// The tiles in which this ground differs from another one of the same terrain.

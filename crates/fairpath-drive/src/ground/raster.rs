@@ -1,7 +1,8 @@
 //! A corridor on the fine grid of the ground: cross-sections come in, for each sample that they reach how low and how high the ground may be there goes out.
 
-use super::corridor::{CrossSection, Design, EarthworkOptions};
+use super::corridor::{CrossSection, Design, EarthworkOptions, Side};
 use super::tiles::{FineGrid, TILE, TileIndex};
+use crate::furniture::CLEAR_M;
 use fairpath_curve::{Point, Vec2};
 use std::collections::BTreeMap;
 
@@ -26,7 +27,7 @@ pub(crate) fn hits(sections: &[CrossSection], bed_m: f64, options: &EarthworkOpt
     let mut found = Hits::new();
     for pair in sections.windows(2) {
         let (a, b) = (&pair[0], &pair[1]);
-        if a.on_ground && b.on_ground && b.station_m > a.station_m {
+        if !a.covered && !b.covered && b.station_m > a.station_m {
             strip(a, b, bed_m, options, grid, &mut found);
         }
     }
@@ -49,7 +50,10 @@ fn strip(
 ) {
     let along = |left: Vec2| Vec2::new(left.y, -left.x);
     let (ta, tb) = (along(a.left), along(b.left));
-    let reach = |i: usize| a.sides[i].daylight_m.max(b.sides[i].daylight_m) + grid.step_m();
+    // A bridge or a pipe asks nothing of the ground, but no tree shall stand under it.
+    let shapes = a.on_ground && b.on_ground;
+    let furthest = |side: &Side| side.daylight_m.max(side.half_width_m + CLEAR_M);
+    let reach = |i: usize| furthest(&a.sides[i]).max(furthest(&b.sides[i])) + grid.step_m();
     let corners = [
         a.point + a.left * reach(0),
         a.point - a.left * reach(1),
@@ -72,7 +76,7 @@ fn strip(
             let i = usize::from(off.dot(left) < 0.0);
             let across = off.hypot2().sqrt();
             let (sa, sb) = (&a.sides[i], &b.sides[i]);
-            if across > lerp(sa.daylight_m, sb.daylight_m) + grid.step_m() {
+            if across > lerp(furthest(sa), furthest(sb)) + grid.step_m() {
                 continue;
             }
             let design = Design {
@@ -84,7 +88,8 @@ fn strip(
             let mut side = *sa;
             side.half_width_m = lerp(sa.half_width_m, sb.half_width_m);
             (side.cut_run, side.fill_run) = (lerp(sa.cut_run, sb.cut_run), lerp(sa.fill_run, sb.fill_run));
-            let [low, high] = design.bounds(&side, across);
+            let [low, high] =
+                if shapes { design.bounds(&side, across) } else { [f64::NEG_INFINITY, f64::INFINITY] };
             let (tile, sample) = grid.tile_of([column, row]);
             found.entry(tile).or_insert_with(|| Vec::with_capacity(TILE)).push(Hit {
                 sample,

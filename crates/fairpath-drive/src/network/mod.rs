@@ -15,7 +15,7 @@ pub use sketch::SketchScale;
 pub use structure::{Carrier, Structure, StructureLimits};
 
 pub(crate) use contact::{crossings_between, crossings_within, decide};
-pub(crate) use elevation::{alone, profile_with, wanted_heights};
+pub(crate) use elevation::{alone, profile_with, separation_m, wanted_heights};
 pub(crate) use junction::junctions;
 pub(crate) use sketch::points_along;
 pub(crate) use structure::structures;

@@ -89,6 +89,17 @@ fn a_bridge_goes_straight_over_a_gorge() {
     assert!(dam.solve().unwrap().earthwork[0].counted > 10_000.0);
 }
 
+/// Where no earth counts at all, the road is the straightest, as near to the ground as that allows.
+#[test]
+fn a_road_all_of_bridge_is_straight() {
+    let mut bridge = road(1000.0, |s| 30.0 + 0.01 * s + 5.0 * libm::sin(s * std::f64::consts::PI / 100.0));
+    bridge.stretches = vec![WeightedStretch { from_m: 0.0, to_m: 1000.0, weight: 0.0 }];
+    let heights = network(vec![bridge]).solve().unwrap();
+    assert_eq!(heights.earthwork[0].counted, 0.0);
+    let [first, middle, last] = [0.0, 500.0, 1000.0].map(|s| heights.profiles[0].at(s).height_m);
+    assert!((first + last - 2.0 * middle).abs() < 0.1 && (middle - 35.0).abs() < 1.0, "{first} {middle} {last}");
+}
+
 #[test]
 fn what_cannot_be_meant_is_listed_completely() {
     let mut bad = network(vec![road(100.0, |_| 0.0), road(100.0, |_| 0.0)]);
@@ -124,7 +135,7 @@ fn what_cannot_be_meant_is_listed_completely() {
         ]
     );
     let text = problems[1].to_string();
-    assert_eq!(text, "roads[0].limits.crest_k_m is 0; it must be positive and finite");
+    assert_eq!(text, "roads[0].limits.crest_k_m is 0; it must be positive, from a millionth to a thousand million");
     let mut fine = network(vec![road(1e6, |_| 0.0)]);
     fine.roads[0].knot_spacing_m = 1e-6;
     assert!(matches!(fine.solve(), Err(EngineeredError::Invalid { .. })));

@@ -1,0 +1,12 @@
+//! What stands along paths: signs and trees.
+
+mod foliage;
+mod pillars;
+mod signs;
+
+pub use foliage::Tree;
+pub use pillars::{Pillar, pillars};
+pub use signs::{Sign, SignKind};
+
+pub(crate) use foliage::{CLEAR_M, tiles_of, trees_on};
+pub(crate) use signs::{signs, stopping_arms};

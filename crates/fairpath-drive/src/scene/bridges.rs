@@ -1,0 +1,74 @@
+//! Bridges: deck, parapets, abutments and pillars. No pillar stands on another path or in the way of its traffic.
+
+use super::roads::{beside, sections_within, wall};
+use super::shape::{P3, band, cuboid, quad};
+use super::{Finish, Instances, Placement, Scene, part};
+use crate::document::{PathResult, Results};
+use crate::furniture::pillars;
+use crate::network::Carrier;
+use crate::section::Material;
+use fairpath_shape::Mesh;
+
+/// Height and thickness of a parapet, m.
+const PARAPET_M: [f64; 2] = [0.9, 0.25];
+
+/// Side of a pillar along the bridge, m; across it is half as wide as the deck.
+const PILLAR_M: f64 = 1.2;
+
+pub(super) fn add(scene: &mut Scene, path: &PathResult, results: &Results) {
+    let section = &path.path.section;
+    let concrete = Finish::Section(Material::Concrete);
+    let [left, right] = section.half_widths_m();
+    let mut mesh = Mesh::default();
+    for bridge in path.structures.iter().filter(|s| s.carrier == Carrier::Bridge) {
+        let run = sections_within(&path.sections, [bridge.from_m, bridge.to_m]);
+        if run.len() < 2 {
+            continue;
+        }
+        let line = |left_m: f64, above_m: f64| -> Vec<P3> { run.iter().map(|s| beside(s, left_m, above_m)).collect() };
+        let deep = -section.thickness_m;
+        let (out_left, out_right) = (left + PARAPET_M[1], right + PARAPET_M[1]);
+        // The slab: below and at its sides; what lies on it is the road.
+        band(&mut mesh, &line(-out_right, deep), &line(out_left, deep));
+        band(&mut mesh, &line(out_left, deep), &line(out_left, PARAPET_M[0]));
+        band(&mut mesh, &line(-out_right, PARAPET_M[0]), &line(-out_right, deep));
+        band(&mut mesh, &line(out_left, PARAPET_M[0]), &line(left, PARAPET_M[0]));
+        band(&mut mesh, &line(-right, PARAPET_M[0]), &line(-out_right, PARAPET_M[0]));
+        band(&mut mesh, &line(left, PARAPET_M[0]), &line(left, 0.0));
+        band(&mut mesh, &line(-right, 0.0), &line(-right, PARAPET_M[0]));
+        for (section, backward) in [(&run[0], true), (&run[run.len() - 1], false)] {
+            // The abutment closes the embankment below the deck, down into the ground.
+            let foot = section.natural_m.min(section.height_m + deep) - 1.0 - section.height_m;
+            let corner = |left_m: f64, above_m: f64| beside(section, left_m, above_m);
+            let face = [corner(out_left, foot), corner(-out_right, foot), corner(-out_right, 0.0), corner(out_left, 0.0)];
+            let turned = [face[1], face[0], face[3], face[2]];
+            quad(&mut mesh, if backward { turned } else { face });
+            quad(&mut mesh, if backward { face } else { turned });
+            let along = [section.left.y, -section.left.x].map(|x| x * if backward { -3.0 } else { 3.0 });
+            for edge in [out_left, -out_right] {
+                let low = corner(edge, foot);
+                let high = corner(edge, PARAPET_M[0]);
+                let far = |p: P3| [p[0] + along[0], p[1] + along[1], p[2]];
+                wall(&mut mesh, &[low, far(low)], &[high, far(high)]);
+            }
+        }
+    }
+    scene.part(format!("bridges of {}", path.path.name), concrete, mesh);
+    let stands = pillars(path, results);
+    if stands.is_empty() {
+        return;
+    }
+    let across = 0.5 * section.width_m();
+    let unit = part("pillar", concrete, |mesh| cuboid(mesh, [0.0, 0.0, -1.0], [PILLAR_M, across, 1.0]));
+    // A pillar is as tall as it has to be: pieces of one metre stand on each other.
+    let at = stands.iter().flat_map(|p| {
+        let count = (p.top_m - p.foot_m).ceil().max(1.0) as usize;
+        (0..count).map(move |k| Placement {
+            position: [p.place.x, p.place.y, p.top_m - k as f64],
+            heading_rad: p.heading_rad,
+            pitch_rad: 0.0,
+            scale: 1.0,
+        })
+    });
+    scene.instances.push(Instances { name: format!("pillars of {}", path.path.name), at: at.collect(), parts: vec![unit] });
+}

@@ -1,0 +1,187 @@
+//! The ground as triangles: coarse far from paths, as fine as it was shaped where it was.
+
+use super::shape::{P3, quad};
+use super::{Finish, Scene, SceneOptions};
+use crate::document::{Results, State};
+use crate::ground::Ground;
+use crate::terrain::{CHUNK, COARSEST, Heightfield, NeighbourLevels};
+use fairpath_curve::{Point, Rect};
+use fairpath_shape::Mesh;
+use std::collections::{BTreeMap, BTreeSet};
+
+pub(super) fn add(scene: &mut Scene, state: &State, results: &Results, options: &SceneOptions) {
+    let ground = &results.ground;
+    let natural = ground.natural();
+    let shaped = shaped_cells(ground);
+    let chunks = natural.chunks();
+    let boxes: Vec<Rect> = results.paths.iter().map(|p| p.path.plan.bounding_box()).collect();
+    let distance = |chunk: [usize; 2]| {
+        let cells = natural.chunk_cells(chunk);
+        let low = natural.place([cells.columns[0], cells.rows[0]]);
+        let high = natural.place([cells.columns[1], cells.rows[1]]);
+        boxes.iter().map(|b| apart(*b, low, high)).fold(f64::INFINITY, f64::min)
+    };
+    let touched: BTreeSet<[usize; 2]> = shaped.keys().map(|c| [c[0] / CHUNK, c[1] / CHUNK]).collect();
+    let beside = |[i, j]: [usize; 2]| {
+        (i.saturating_sub(1)..=i + 1).any(|i| (j.saturating_sub(1)..=j + 1).any(|j| touched.contains(&[i, j])))
+    };
+    let mut levels: Vec<Option<u8>> = Vec::with_capacity(chunks[0] * chunks[1]);
+    for j in 0..chunks[1] {
+        for i in 0..chunks[0] {
+            let far = distance([i, j]);
+            levels.push(if beside([i, j]) {
+                Some(0)
+            } else if far > options.margin_m {
+                None
+            } else {
+                let allowed = options.coarseness * far.min(1e5);
+                let errors = natural.chunk_errors_m([i, j]);
+                (0..=COARSEST).rev().find(|&l| errors[usize::from(l)] <= allowed).or(Some(0))
+            });
+        }
+    }
+    let level = |i: usize, j: usize| levels[j * chunks[0] + i];
+    let mut mesh = Mesh::default();
+    for j in 0..chunks[1] {
+        for i in 0..chunks[0] {
+            let Some(own) = level(i, j) else { continue };
+            let of = |i: Option<usize>, j: Option<usize>| match (i, j) {
+                (Some(i), Some(j)) if i < chunks[0] && j < chunks[1] => level(i, j).unwrap_or(own),
+                _ => own,
+            };
+            let neighbours = NeighbourLevels {
+                west: of(i.checked_sub(1), Some(j)),
+                east: of(Some(i + 1), Some(j)),
+                south: of(Some(i), j.checked_sub(1)),
+                north: of(Some(i), Some(j + 1)),
+            };
+            let chunk = natural.chunk_mesh([i, j], own, neighbours);
+            let here = touched.contains(&[i, j]);
+            append(&mut mesh, &chunk, |t| !here || !is_shaped(natural, &shaped, &chunk, t));
+        }
+    }
+    scene.part("terrain", Finish::Ground, mesh);
+    let (mut wild, mut worked) = (Mesh::default(), Mesh::default());
+    for (cell, samples) in &shaped {
+        refined(ground, *cell, samples, &mut wild, &mut worked);
+    }
+    scene.part("terrain beside paths", Finish::Ground, wild);
+    scene.part("earthwork", Finish::Earthwork, worked);
+    if let Some(water) = state.terrain.as_ref().and_then(|t| t.water_m) {
+        let (low, high) = (natural.corner(), natural.far_corner());
+        let mut mesh = Mesh::default();
+        quad(&mut mesh, [[low.x, low.y, water], [high.x, low.y, water], [high.x, high.y, water], [low.x, high.y, water]]);
+        scene.part("water", Finish::Water, mesh);
+    }
+}
+
+/// How far a box lies from another one.
+fn apart(a: Rect, low: Point, high: Point) -> f64 {
+    let x = (a.x0 - high.x).max(low.x - a.x1).max(0.0);
+    let y = (a.y0 - high.y).max(low.y - a.y1).max(0.0);
+    (x * x + y * y).sqrt()
+}
+
+/// The cells of the terrain in which samples were shaped, with these, counted in the cell from its south-west.
+fn shaped_cells(ground: &Ground) -> BTreeMap<[usize; 2], Vec<[usize; 2]>> {
+    let parts = ground.grid().parts();
+    let last = ground.natural().size().map(|n| n - 2);
+    let mut cells: BTreeMap<[usize; 2], Vec<[usize; 2]>> = BTreeMap::new();
+    for at in ground.shaped_samples() {
+        // A sample on a border belongs to the cells on both sides.
+        let range = |k: usize, last: usize| {
+            let cell = k / parts;
+            let first = if k.is_multiple_of(parts) { cell.saturating_sub(1) } else { cell };
+            first..=cell.min(last)
+        };
+        for column in range(at[0], last[0]) {
+            for row in range(at[1], last[1]) {
+                let own = [at[0] - column * parts, at[1] - row * parts];
+                cells.entry([column, row]).or_default().push(own);
+            }
+        }
+    }
+    cells
+}
+
+fn append(mesh: &mut Mesh, other: &Mesh, keep: impl Fn([u32; 3]) -> bool) {
+    let mut number = vec![u32::MAX; other.vertices.len()];
+    for &triangle in other.triangles.iter().filter(|t| keep(**t)) {
+        let moved = triangle.map(|v| {
+            let n = &mut number[v as usize];
+            if *n == u32::MAX {
+                *n = mesh.vertices.len() as u32;
+                mesh.vertices.push(other.vertices[v as usize]);
+                mesh.normals.push(other.normals[v as usize]);
+            }
+            *n
+        });
+        mesh.triangles.push(moved);
+    }
+}
+
+/// Whether a triangle of a chunk in full detail lies in a cell that is drawn more finely.
+fn is_shaped(
+    natural: &Heightfield,
+    shaped: &BTreeMap<[usize; 2], Vec<[usize; 2]>>,
+    chunk: &Mesh,
+    triangle: [u32; 3],
+) -> bool {
+    let [a, b, c] = triangle.map(|v| chunk.vertices[v as usize]);
+    let (corner, spacing) = (natural.corner(), natural.spacing_m());
+    let column = ((a[0] + b[0] + c[0]) / 3.0 - corner.x) / spacing.x;
+    let row = ((a[1] + b[1] + c[1]) / 3.0 - corner.y) / spacing.y;
+    shaped.contains_key(&[column as usize, row as usize])
+}
+
+/// One cell of the terrain, divided where it was shaped. Where it was not, the ground is bilinear, so that its borders are straight and meet finer ones without a gap.
+fn refined(ground: &Ground, cell: [usize; 2], samples: &[[usize; 2]], wild: &mut Mesh, worked: &mut Mesh) {
+    let parts = ground.grid().parts();
+    let side = parts + 2;
+    // How many shaped samples lie to the south-west of each.
+    let mut sums = vec![0_u32; side * side];
+    for [i, j] in samples {
+        sums[(j + 1) * side + i + 1] += 1;
+    }
+    for j in 1..side {
+        for i in 1..side {
+            sums[j * side + i] += sums[j * side + i - 1] + sums[(j - 1) * side + i] - sums[(j - 1) * side + i - 1];
+        }
+    }
+    let count = |[i0, j0]: [usize; 2], [i1, j1]: [usize; 2]| {
+        let at = |i: usize, j: usize| sums[j * side + i];
+        at(i1 + 1, j1 + 1) + at(i0, j0) - at(i0, j1 + 1) - at(i1 + 1, j0)
+    };
+    let origin = [cell[0] * parts, cell[1] * parts];
+    let mut blocks = vec![([0, 0], parts)];
+    while let Some(([i, j], size)) = blocks.pop() {
+        let shaped = count([i, j], [i + size, j + size]) > 0;
+        if shaped && size > 1 {
+            let half = size / 2;
+            for (di, dj) in [(0, 0), (half, 0), (0, half), (half, half)] {
+                blocks.push(([i + di, j + dj], half));
+            }
+            continue;
+        }
+        let mesh = if shaped { &mut *worked } else { &mut *wild };
+        let corner = |di: usize, dj: usize| vertex(ground, [origin[0] + i + di, origin[1] + j + dj], size);
+        let corners = [corner(0, 0), corner(size, 0), corner(size, size), corner(0, size)];
+        let first = mesh.vertices.len() as u32;
+        mesh.vertices.extend(corners.map(|c| c.0));
+        mesh.normals.extend(corners.map(|c| c.1));
+        mesh.triangles.extend([[first, first + 1, first + 2], [first, first + 2, first + 3]]);
+    }
+}
+
+/// A sample of the fine grid as a vertex with its normal, by the slopes over `reach` samples to all sides.
+fn vertex(ground: &Ground, at: [usize; 2], reach: usize) -> (P3, P3) {
+    let grid = ground.grid();
+    let (size, step) = (grid.size(), grid.spacing_m());
+    let place = grid.place(at);
+    let around = |k: usize, count: usize| (k.saturating_sub(reach), (k + reach).min(count - 1));
+    let ((w, e), (s, n)) = (around(at[0], size[0]), around(at[1], size[1]));
+    let x = (ground.sample([w, at[1]]) - ground.sample([e, at[1]])) / ((e - w) as f64 * step.x);
+    let y = (ground.sample([at[0], s]) - ground.sample([at[0], n])) / ((n - s) as f64 * step.y);
+    let length = (x * x + y * y + 1.0).sqrt();
+    ([place.x, place.y, ground.sample(at)], [x / length, y / length, 1.0 / length])
+}

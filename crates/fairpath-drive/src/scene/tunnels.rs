@@ -1,0 +1,96 @@
+//! Tunnels: lining, portals and lamps. The ground above stays whole.
+
+use super::roads::{beside, sections_within};
+use super::shape::{P3, band, cuboid, quad};
+use super::{Finish, Instances, Placement, Scene, part};
+use crate::document::PathResult;
+use crate::ground::CrossSection;
+use crate::network::Carrier;
+use crate::section::Material;
+use fairpath_curve::trig;
+use fairpath_shape::Mesh;
+
+/// Sides of the vault.
+const VAULT: usize = 10;
+
+/// From the edge of what is laid to the wall, m.
+const WALL_M: f64 = 0.8;
+
+/// Width of the portal's face beside the opening and above it, m.
+const FACE_M: f64 = 2.5;
+
+/// From lamp to lamp, m.
+const LAMP_M: f64 = 12.0;
+
+pub(super) fn add(scene: &mut Scene, path: &PathResult) {
+    let section = &path.path.section;
+    let mut mesh = Mesh::default();
+    let mut lamps = Vec::new();
+    for tunnel in path.structures.iter().filter(|s| s.carrier == Carrier::Tunnel) {
+        let run = sections_within(&path.sections, [tunnel.from_m, tunnel.to_m]);
+        if run.len() < 2 {
+            continue;
+        }
+        let outline = vault(section.half_widths_m(), section.clearance_m);
+        let line = |[left, up]: [f64; 2]| -> Vec<P3> { run.iter().map(|s| beside(s, left, up)).collect() };
+        // Seen from inside: from the right foot over the top to the left foot.
+        for pair in outline.windows(2) {
+            band(&mut mesh, &line(pair[0]), &line(pair[1]));
+        }
+        portal(&mut mesh, &run[0], &outline, true);
+        portal(&mut mesh, &run[run.len() - 1], &outline, false);
+        let top = outline.iter().map(|p| p[1]).fold(0.0, f64::max);
+        let count = ((tunnel.to_m - tunnel.from_m) / LAMP_M).floor().max(1.0) as usize;
+        for k in 0..count {
+            let station = tunnel.from_m + (k as f64 + 0.5) * (tunnel.to_m - tunnel.from_m) / count as f64;
+            let pose = path.path.plan.pose_at(station);
+            let height = path.profile.at(station).height_m + top - 0.15;
+            lamps.push(Placement {
+                position: [pose.point.x, pose.point.y, height],
+                heading_rad: pose.heading,
+                pitch_rad: 0.0,
+                scale: 1.0,
+            });
+        }
+    }
+    scene.part(format!("tunnels of {}", path.path.name), Finish::Section(Material::Concrete), mesh);
+    let lamp = part("lamp", Finish::Light, |mesh| cuboid(mesh, [0.0, 0.0, -0.1], [1.2, 0.3, 0.1]));
+    scene.instances.push(Instances { name: format!("lamps of {}", path.path.name), at: lamps, parts: vec![lamp] });
+}
+
+/// The outline of the opening, left of the middle and above the surface, from the right foot to the left one: upright walls and a round vault over the clearance.
+fn vault([left, right]: [f64; 2], clearance_m: f64) -> Vec<[f64; 2]> {
+    let (left, right) = (left + WALL_M, right + WALL_M);
+    let (middle, radius) = (0.5 * (left - right), 0.5 * (left + right));
+    // The vault begins so low that the clearance fits under it at the edge of what is laid.
+    let rise = (radius * radius - (radius - WALL_M) * (radius - WALL_M)).sqrt();
+    let spring = (clearance_m - rise).max(0.5 * clearance_m);
+    let mut outline = vec![[-right, -0.3]];
+    for k in 0..=VAULT {
+        let (sin, cos) = trig::sin_cos(std::f64::consts::PI * k as f64 / VAULT as f64);
+        outline.push([middle - radius * cos, spring + radius * sin]);
+    }
+    outline.push([left, -0.3]);
+    outline
+}
+
+/// The face around the opening.
+fn portal(mesh: &mut Mesh, section: &CrossSection, outline: &[[f64; 2]], backward: bool) {
+    let top = outline.iter().map(|p| p[1]).fold(0.0, f64::max) + FACE_M;
+    let (right, left) = (outline[0][0] - FACE_M, outline[outline.len() - 1][0] + FACE_M);
+    let at = |[l, up]: [f64; 2]| beside(section, l, up);
+    let mut face = |corners: [[f64; 2]; 4]| {
+        let [a, b, c, d] = corners.map(at);
+        // Counterclockwise as seen by those who come out of the tunnel at its end, or in at its start.
+        quad(mesh, [a, b, c, d]);
+        quad(mesh, [d, c, b, a]);
+    };
+    for pair in outline.windows(2) {
+        let [a, b] = [pair[0], pair[1]];
+        face([a, b, [b[0], top], [a[0], top]]);
+    }
+    let (first, last) = (outline[0], outline[outline.len() - 1]);
+    face([[right, -1.0], [first[0], -1.0], [first[0], top], [right, top]]);
+    face([[last[0], -1.0], [left, -1.0], [left, top], [last[0], top]]);
+    let _ = backward;
+}
