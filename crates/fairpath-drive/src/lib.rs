@@ -37,7 +37,7 @@ mod rules;
 mod scene;
 mod section;
 mod smoothing;
-mod speed;
+mod playback;
 mod terrain;
 
 pub use document::{
@@ -65,7 +65,7 @@ pub use rules::{Breach, DesignRules, Rule, SpeedRule};
 pub use scene::{Finish, Instances, Part, Placement, Scene, SceneOptions};
 pub use section::{Crosses, Lane, LaneKind, Marking, Material, Piece, Section, SectionError};
 pub use smoothing::smoothed;
-pub use speed::{COMFORTABLE_M_S2, smooth_speeds};
+pub use playback::{COMFORTABLE_M_S2, Camera, CameraTrack, Drive, DriveError, Moment, drive, smooth_speeds};
 pub use terrain::{
     CHUNK, COARSEST, Cells, GeoReference, Heightfield, Landscape, MOST_HEIGHT_M, MOST_SAMPLES, NeighbourLevels, Ray,
     Samples, SyntheticTerrain, Terrain, TerrainError, VoidReport, fill_voids,

@@ -56,3 +56,61 @@ fn a_break_goes_under() {
     assert!(free > 5.4 && free < 8.0, "{free}");
     assert!(results.paths[1].structures.iter().any(|s| s.carrier == Carrier::Bridge && s.over_path));
 }
+
+/// Sketches three straight roads that form a triangle, each of them crossing both others.
+fn triangle() -> [&'static str; 3] {
+    [
+        r#"{"do":"sketch","name":"a","points_m":[[200,300],[400,300],[800,300]],"as":"new"}"#,
+        r#"{"do":"sketch","name":"b","points_m":[[250,250],[450,450],[650,650]],"as":"new"}"#,
+        r#"{"do":"sketch","name":"c","points_m":[[750,250],[550,450],[350,650]],"as":"new"}"#,
+    ]
+}
+
+#[test]
+fn three_roads_can_pass_over_each_other_in_a_ring() {
+    let [a, b, c] = triangle();
+    let document = document(&[
+        HILLS,
+        a,
+        b,
+        c,
+        r#"{"do":"crossing","near_m":[300,300],"set":"over","path":"a"}"#,
+        r#"{"do":"crossing","near_m":[500,500],"set":"over","path":"b"}"#,
+        r#"{"do":"crossing","near_m":[700,300],"set":"over","path":"c"}"#,
+    ]);
+    let results = document.results().unwrap();
+    assert_eq!(results.crossings.len(), 3, "{:?}", results.crossings);
+    for crossing in &results.crossings {
+        let [upper, lower] = crossing.upper_lower().expect("each was set");
+        let height = |place: fairpath_drive::PathPlace| results.path(place.path).unwrap().profile.at(place.station_m).height_m;
+        let free = height(upper) - height(lower);
+        assert!(free > 5.5 - 1e-6, "{free} at {crossing:?}");
+    }
+    let breaches = document.state().rules.clearance_breaches(&results.crossings, |id| {
+        results.path(id).map(|p| (p.path.as_ref(), p.profile.as_ref()))
+    });
+    assert_eq!(breaches, []);
+    assert!(results.junctions.is_empty());
+}
+
+#[test]
+fn roads_that_meet_have_one_height_and_ways_in_all_directions() {
+    let [a, b, c] = triangle();
+    let document = document(&[HILLS, a, b, c]);
+    let results = document.results().unwrap();
+    assert_eq!(results.junctions.len(), 3);
+    for crossing in &results.crossings {
+        let [z, w] = crossing.places().map(|p| results.path(p.path).unwrap().profile.at(p.station_m).height_m);
+        assert!((z - w).abs() < 1e-9, "{z} and {w}");
+    }
+    for junction in &results.junctions {
+        assert_eq!((junction.arms.len(), junction.ways.len()), (4, 12));
+        for way in &junction.ways {
+            let [from, to] = [way.from, way.to].map(|i| junction.arms[i]);
+            let height = |arm: fairpath_drive::Arm| results.path(arm.path).unwrap().profile.at(arm.station_m).height_m;
+            let length = way.plan.length();
+            assert!((way.profile.at(0.0).height_m - height(from)).abs() < 1e-9);
+            assert!((way.profile.at(length).height_m - height(to)).abs() < 1e-9);
+        }
+    }
+}

@@ -1,5 +1,6 @@
 //! JSON schemas of our own formats, made from the types that write them.
 
+use crate::drive::ScriptRecord;
 use crate::edits::EditsRecord;
 use crate::spline_json::SplinesRecord;
 use crate::strokes_json::StrokesRecord;
@@ -28,6 +29,12 @@ pub fn templates_schema() -> String {
 #[must_use]
 pub fn edits_schema() -> String {
     schema::<EditsRecord>()
+}
+
+/// The JSON schema (draft 2020-12) of `fairpath-drive-script 1`.
+#[must_use]
+pub fn drive_script_schema() -> String {
+    schema::<ScriptRecord>()
 }
 
 fn schema<T: JsonSchema>() -> String {

@@ -93,6 +93,13 @@ pub(crate) fn begins(head: &[u8]) -> bool {
 }
 
 pub(crate) fn read(text: &str, options: &ReadOptions) -> Result<StrokeFile, Fault> {
+    let (mut file, places) = read_places(text, options)?;
+    project(&mut file, &places)?;
+    Ok(file)
+}
+
+/// The lines as places on the globe: strokes without points yet, and the places of each.
+pub(crate) fn read_places(text: &str, options: &ReadOptions) -> Result<(StrokeFile, Vec<Vec<Place>>), Fault> {
     let object: Object = serde_json::from_str(text).map_err(|e| json_fault(&e))?;
     check_reference_system(object.crs.as_ref())?;
     let mut reader = Reader {
@@ -112,8 +119,7 @@ pub(crate) fn read(text: &str, options: &ReadOptions) -> Result<StrokeFile, Faul
         let text = format!("{point_geometries} geometries are points, not lines, and were left out");
         file.warnings.push(Warning { code: "points-left-out".into(), text });
     }
-    project(&mut file, &places)?;
-    Ok(file)
+    Ok((file, places))
 }
 
 fn check_reference_system(crs: Option<&Value>) -> Result<(), Fault> {

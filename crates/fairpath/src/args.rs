@@ -37,6 +37,8 @@ pub enum Command {
     Oversketch(OversketchArgs),
     /// Extend, cut, join and close curves, move their points, smooth and make corners
     Edit(EditArgs),
+    /// Lay roads on a terrain: replay a script, or check a project
+    Drive(DriveArgs),
 }
 
 /// Arguments of `fairpath fit`.
@@ -326,6 +328,58 @@ pub struct EditArgs {
     /// Write DXF with the y axis turned up where the strokes have it down, so that the drawing looks as drawn
     #[arg(long)]
     pub flip_y: bool,
+}
+
+/// Arguments of `fairpath drive`.
+#[derive(Args, Debug)]
+pub struct DriveArgs {
+    /// What to do.
+    #[command(subcommand)]
+    pub verb: DriveVerb,
+}
+
+/// The verbs of `fairpath drive`.
+#[derive(Subcommand, Debug)]
+pub enum DriveVerb {
+    /// Do the commands of a script, tell about each path, and write what came of them
+    Run(DriveRunArgs),
+    /// List what breaks the rules of design in a project
+    Check(DriveCheckArgs),
+}
+
+/// Arguments of `fairpath drive run`.
+#[derive(Args, Debug)]
+#[command(after_help = EXIT_CODES)]
+pub struct DriveRunArgs {
+    /// The commands: JSON (fairpath-drive-script 1), or a project; files that it names lie beside it; `-` is standard
+    /// input
+    #[arg(value_name = "SCRIPT")]
+    pub script: PathBuf,
+
+    /// Where the project goes, to be opened again
+    #[arg(long, value_name = "FILE")]
+    pub project: Option<PathBuf>,
+
+    /// Where an export goes, in the format of the extension; may be given many times
+    #[arg(long, value_name = "FILE")]
+    pub export: Vec<PathBuf>,
+
+    /// Also tell how long each command took
+    #[arg(long)]
+    pub times: bool,
+}
+
+/// Arguments of `fairpath drive check`.
+#[derive(Args, Debug)]
+#[command(after_help = EXIT_CODES)]
+pub struct DriveCheckArgs {
+    /// The project, or a script
+    #[arg(value_name = "PROJECT")]
+    pub project: PathBuf,
+
+    /// End with 1 if a rule is broken
+    #[arg(long)]
+    pub strict: bool,
 }
 
 /// The formats that curves are written in.

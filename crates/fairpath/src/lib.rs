@@ -18,7 +18,7 @@ use std::process::ExitCode;
 use clap::Parser;
 
 use crate::args::{Cli, Command};
-use crate::commands::{Ending, compare, convert, edit, fit, inflate, oversketch, templates};
+use crate::commands::{Ending, compare, convert, drive, edit, fit, inflate, oversketch, templates};
 use crate::printer::Printer;
 
 /// Parses the arguments, does what they ask and says how it ended: 0 all done, 1 some stroke failed or `--strict`
@@ -42,6 +42,7 @@ pub fn run() -> ExitCode {
         Command::Templates(args) => templates::run(args, &mut printer),
         Command::Oversketch(args) => oversketch::run(args, &mut printer),
         Command::Edit(args) => edit::run(args, &mut printer),
+        Command::Drive(args) => drive::run(args, &mut printer),
     };
     match ending {
         Ok(Ending::Done) => ExitCode::SUCCESS,

@@ -2,11 +2,11 @@
 //! state before, so that the result is the same as if all were new.
 
 use super::state::{FoliageRegion, LaidTerrain, State};
-use crate::ground::{CrossSection, Ground, Hits, TileIndex, cross_sections, hits};
 use crate::furniture::{Sign, Tree, signs, stopping_arms, tiles_of, trees_on};
+use crate::ground::{CrossSection, Ground, Hits, TileIndex, cross_sections, hits};
 use crate::network::{
-    Arm, Crossing, Junction, Path, PathId, Structure, Unordered, alone, crossings_between, crossings_within, decide,
-    junctions, profile_with, structures, wanted_heights,
+    Arm, Crossing, HeightMode, Junction, Path, PathId, Site, Structure, Unordered, alone, crossings_between,
+    crossings_within, decide, engineered, junctions, profile_with, structures, wanted_heights,
 };
 use crate::profile::Profile;
 use fairpath_curve::Rect;
@@ -28,6 +28,8 @@ pub struct PathResult {
     alone: Arc<Profile>,
     /// Stations of its crossings and the heights there, m.
     wanted: Vec<[f64; 2]>,
+    /// Why it is not engineered although it is to be.
+    infeasible: Option<Arc<str>>,
     /// Its crossings, for which it has bridges.
     crossings: Vec<Crossing>,
     /// What its corridor asks of the ground.
@@ -59,6 +61,11 @@ pub struct Results {
 }
 
 impl Results {
+    /// Paths that are to be engineered and are not, with the reason.
+    pub fn infeasible(&self) -> impl Iterator<Item = (&Path, &str)> {
+        self.paths.iter().filter_map(|p| Some((p.path.as_ref(), p.infeasible.as_deref()?)))
+    }
+
     /// What follows for a path.
     #[must_use]
     pub fn path(&self, id: PathId) -> Option<&Arc<PathResult>> {
@@ -91,21 +98,29 @@ pub(super) fn derive(before: Option<(&State, &Results)>, state: &State, terrain:
         let own = [a, if a == b { None } else { b }];
         own.into_iter().flatten().for_each(|i| crossings_of[i].push(*crossing));
     }
-    let (wanted, unordered) = heights(before.map(|(_, r)| r), state, &alone_of, &crossings, &crossings_of, is_old);
+    let old = before.map(|(_, r)| r);
+    let same_rules = before.is_some_and(|(old, _)| Arc::ptr_eq(&old.rules, &state.rules));
+    let (elevations, unordered) = heights(old, state, terrain, (&alone_of, &crossings, &crossings_of), &|path| {
+        is_old(path) && same_ground && same_rules
+    });
     let mut paths = Vec::with_capacity(state.paths.len());
     let mut dirty: BTreeSet<TileIndex> = BTreeSet::new();
     let empty = Ground::new(terrain.field.clone());
     let old_ground = before.map_or(&empty, |(_, results)| &results.ground);
     for (i, path) in state.paths.iter().enumerate() {
         let old = old_path(path.id);
-        let same_heights = old.is_some_and(|old| is_old(path) && old.wanted == wanted[i]);
-        if let Some(old) = old.filter(|old| same_heights && same_ground && old.crossings == crossings_of[i]) {
+        let elevation = &elevations[i];
+        let same_heights = old.is_some_and(|old| is_old(path) && old.profile == elevation.profile);
+        let as_before = |old: &&Arc<PathResult>| {
+            old.crossings == crossings_of[i] && old.wanted == elevation.wanted && old.infeasible == elevation.infeasible
+        };
+        if let Some(old) = old.filter(|old| same_heights && same_ground && as_before(old)) {
             paths.push(old.clone());
             continue;
         }
         let profile = match old {
             Some(old) if same_heights => old.profile.clone(),
-            _ => Arc::new(profile_with(path, &alone_of[i], &wanted[i])),
+            _ => elevation.profile.clone(),
         };
         let other = |place: crate::network::PathPlace| state.path_of(place.path).map(Arc::as_ref);
         let structures = structures(
@@ -118,9 +133,12 @@ pub(super) fn derive(before: Option<(&State, &Results)>, state: &State, terrain:
             &state.settings.structures,
         );
         let result = match old {
-            Some(old) if same_heights && same_ground && old.structures == structures => {
-                PathResult { crossings: crossings_of[i].clone(), ..old.as_ref().clone() }
-            }
+            Some(old) if same_heights && same_ground && old.structures == structures => PathResult {
+                crossings: crossings_of[i].clone(),
+                wanted: elevation.wanted.clone(),
+                infeasible: elevation.infeasible.clone(),
+                ..old.as_ref().clone()
+            },
             _ => {
                 let earthwork = &state.settings.earthwork;
                 let sections = cross_sections(path, &profile, &structures, &terrain.field, &state.soils, earthwork);
@@ -133,7 +151,8 @@ pub(super) fn derive(before: Option<(&State, &Results)>, state: &State, terrain:
                     structures,
                     sections,
                     alone: alone_of[i].clone(),
-                    wanted: wanted[i].clone(),
+                    wanted: elevation.wanted.clone(),
+                    infeasible: elevation.infeasible.clone(),
                     crossings: crossings_of[i].clone(),
                     hits,
                 }
@@ -150,7 +169,12 @@ pub(super) fn derive(before: Option<(&State, &Results)>, state: &State, terrain:
         old_ground.reshaped(&dirty, &corridors)
     };
     let junctions = intersections(before.map(|(_, r)| r), state, &paths, &crossings);
-    let signs = posted(before.filter(|(old, _)| Arc::ptr_eq(&old.rules, &state.rules)).map(|(_, r)| r), state, &paths, &junctions);
+    let signs = posted(
+        before.filter(|(old, _)| Arc::ptr_eq(&old.rules, &state.rules)).map(|(_, r)| r),
+        state,
+        &paths,
+        &junctions,
+    );
     let trees = planted(before, state, terrain, &paths, &ground, &dirty);
     Results { paths, crossings, junctions, signs, trees, ground, unordered, pairs }
 }
@@ -313,15 +337,73 @@ fn decided(pairs: &Pairs, state: &State) -> Vec<Crossing> {
     all
 }
 
-/// Stations and heights at the crossings of each path. Paths that hang together through crossings are solved together; where neither paths nor crossings changed, heights are those of before.
+/// The elevation of one path among those that it hangs together with.
+struct PathElevation {
+    profile: Arc<Profile>,
+    wanted: Vec<[f64; 2]>,
+    infeasible: Option<Arc<str>>,
+}
+
+/// The elevations of all paths. Paths that hang together through crossings are solved together; where neither they nor what they depend on changed, elevations are those of before.
 fn heights(
     before: Option<&Results>,
     state: &State,
-    alone: &[Arc<Profile>],
-    crossings: &[Crossing],
-    crossings_of: &[Vec<Crossing>],
-    is_old: impl Fn(&Arc<Path>) -> bool,
-) -> (Vec<Vec<[f64; 2]>>, Option<Unordered>) {
+    terrain: &LaidTerrain,
+    (alone, crossings, crossings_of): (&[Arc<Profile>], &[Crossing], &[Vec<Crossing>]),
+    is_old: &dyn Fn(&Arc<Path>) -> bool,
+) -> (Vec<PathElevation>, Option<Unordered>) {
+    let mut found: Vec<Option<PathElevation>> = state.paths.iter().map(|_| None).collect();
+    let mut unordered = None;
+    for members in hanging_together(state, crossings) {
+        let old = |i: usize| before.and_then(|r| r.path(state.paths[i].id));
+        let kept = |&i: &usize| old(i).filter(|old| is_old(&state.paths[i]) && old.crossings == crossings_of[i]);
+        if members.iter().all(|i| kept(i).is_some()) {
+            for (&i, old) in members.iter().zip(members.iter().filter_map(kept)) {
+                found[i] = Some(PathElevation {
+                    profile: old.profile.clone(),
+                    wanted: old.wanted.clone(),
+                    infeasible: old.infeasible.clone(),
+                });
+            }
+            continue;
+        }
+        let paths: Vec<&Path> = members.iter().map(|&i| state.paths[i].as_ref()).collect();
+        let profiles: Vec<&Profile> = members.iter().map(|&i| alone[i].as_ref()).collect();
+        let ids: BTreeSet<PathId> = paths.iter().map(|p| p.id).collect();
+        let own: Vec<usize> = (0..crossings.len()).filter(|&c| ids.contains(&crossings[c].first.path)).collect();
+        let of_group: Vec<Crossing> = own.iter().map(|&c| crossings[c]).collect();
+        let wanted = wanted_heights(&paths, &profiles, &of_group).unwrap_or_else(|ring| {
+            unordered = Some(Unordered { crossings: ring.crossings.iter().map(|&c| own[c]).collect() });
+            vec![Vec::new(); paths.len()]
+        });
+        let fair: Vec<Profile> = (0..paths.len()).map(|k| profile_with(paths[k], profiles[k], &wanted[k])).collect();
+        let site = Site {
+            natural: &terrain.field,
+            water_m: terrain.water_m,
+            soils: &state.soils,
+            rules: &state.rules,
+            earthwork: &state.settings.earthwork,
+        };
+        let any = paths.iter().any(|p| p.heights == HeightMode::Engineered);
+        let (exact, trouble) = match if any { engineered(&paths, &fair, &of_group, &site) } else { Ok(Vec::new()) } {
+            Ok(exact) => (exact, None),
+            Err(error) => (Vec::new(), Some(Arc::from(error.to_string()))),
+        };
+        let mut exact = exact.into_iter();
+        for ((&i, wanted), fair) in members.iter().zip(wanted).zip(fair) {
+            let profile = Arc::new(exact.next().flatten().unwrap_or(fair));
+            let infeasible = trouble.clone().filter(|_| state.paths[i].heights == HeightMode::Engineered);
+            found[i] = Some(PathElevation { profile, wanted, infeasible });
+        }
+    }
+    let elevations = found.into_iter().zip(alone).map(|(elevation, alone)| {
+        elevation.unwrap_or_else(|| PathElevation { profile: alone.clone(), wanted: Vec::new(), infeasible: None })
+    });
+    (elevations.collect(), unordered)
+}
+
+/// Paths in groups that hang together through crossings.
+fn hanging_together(state: &State, crossings: &[Crossing]) -> Vec<Vec<usize>> {
     let index = |id: PathId| state.paths.binary_search_by_key(&id, |p| p.id).ok();
     let mut group: Vec<usize> = (0..state.paths.len()).collect();
     let root = |group: &mut Vec<usize>, mut i: usize| {
@@ -341,33 +423,5 @@ fn heights(
     for i in 0..state.paths.len() {
         members.entry(root(&mut group, i)).or_default().push(i);
     }
-    let mut wanted = vec![Vec::new(); state.paths.len()];
-    let mut unordered = None;
-    for members in members.values() {
-        let old = |i: usize| before.and_then(|r| r.path(state.paths[i].id));
-        let is_same =
-            |&i: &usize| is_old(&state.paths[i]) && old(i).is_some_and(|old| old.crossings == crossings_of[i]);
-        if members.iter().all(is_same) {
-            for &i in members {
-                wanted[i] = old(i).map(|old| old.wanted.clone()).unwrap_or_default();
-            }
-            continue;
-        }
-        let paths: Vec<&Path> = members.iter().map(|&i| state.paths[i].as_ref()).collect();
-        let profiles: Vec<&Profile> = members.iter().map(|&i| alone[i].as_ref()).collect();
-        let ids: BTreeSet<PathId> = paths.iter().map(|p| p.id).collect();
-        let own: Vec<usize> = (0..crossings.len()).filter(|&c| ids.contains(&crossings[c].first.path)).collect();
-        let of_group: Vec<Crossing> = own.iter().map(|&c| crossings[c]).collect();
-        match wanted_heights(&paths, &profiles, &of_group) {
-            Ok(heights) => {
-                for (&i, heights) in members.iter().zip(heights) {
-                    wanted[i] = heights;
-                }
-            }
-            Err(ring) => {
-                unordered = Some(Unordered { crossings: ring.crossings.iter().map(|&c| own[c]).collect() });
-            }
-        }
-    }
-    (wanted, unordered)
+    members.into_values().collect()
 }

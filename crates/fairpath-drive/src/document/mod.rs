@@ -17,6 +17,7 @@ pub use error::CommandError;
 pub use state::{FoliageRegion, LaidTerrain, Settings, State};
 
 use crate::network::PathId;
+use fairpath_fit::Warning;
 use std::sync::Arc;
 
 /// A state with what follows from it.
@@ -87,12 +88,17 @@ impl Document {
     fn tried(&self, command: &Command, files: &dyn Terrains) -> Result<(Step, Outcome), CommandError> {
         let now = &self.steps[self.done];
         let crossings = now.results.as_ref().map_or(&[][..], |r| &r.crossings);
-        let (state, outcome) = apply::apply(&now.state, crossings, command, files)?;
+        let (state, mut outcome) = apply::apply(&now.state, crossings, command, files)?;
         let before = now.results.as_ref().map(|results| (now.state.as_ref(), results.as_ref()));
         let results = state.terrain.as_ref().map(|terrain| derive::derive(before, &state, terrain));
         if let Some(unordered) = results.as_ref().and_then(|r| r.unordered.as_ref()) {
             let results = results.as_ref().map_or(&[][..], |r| &r.crossings);
             return Err(error::ring(unordered, |c| describe(&state, results, c)));
+        }
+        for (path, reason) in results.iter().flat_map(Results::infeasible) {
+            let code = "not-engineered".to_owned();
+            let text = format!("path {:?} follows the ground instead of being engineered: {reason}", path.name);
+            outcome.warnings.push(Warning { code, text });
         }
         Ok((Step { state: Arc::new(state), results: results.map(Arc::new) }, outcome))
     }

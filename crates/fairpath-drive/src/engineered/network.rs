@@ -1,6 +1,36 @@
 //! What is told of a network of roads before it has heights.
 
 /// Roads whose heights depend on each other.
+///
+/// ```
+/// use fairpath_drive::{ClearanceAt, EarthworkSection, EngineeredNetwork, EngineeredRoad, GradeLimits, RoadPoint};
+///
+/// let road = |name: &str| EngineeredRoad {
+///     name: name.to_owned(),
+///     length_m: 800.0,
+///     ground: vec![[0.0, 20.0], [300.0, 24.0], [800.0, 21.0]],
+///     knot_spacing_m: 10.0,
+///     closed: false,
+///     limits: GradeLimits { max_grade: 0.06, crest_k_m: 20.0, sag_k_m: 18.0 },
+///     section: EarthworkSection { platform_m: 10.0, slope_run: 1.5, cut_weight: 1.0, fill_weight: 1.2 },
+///     fixed: Vec::new(),
+///     bounds: Vec::new(),
+///     start_grade: None,
+///     end_grade: None,
+///     stretches: Vec::new(),
+/// };
+/// let (upper, lower) = (RoadPoint { road: 0, station_m: 350.0 }, RoadPoint { road: 1, station_m: 500.0 });
+/// let network = EngineeredNetwork {
+///     roads: vec![road("pass"), road("valley")],
+///     over: vec![ClearanceAt { upper, lower, clearance_m: 5.2 }],
+///     meet: Vec::new(),
+/// };
+/// let heights = network.solve()?;
+/// let [above, below] = [upper, lower].map(|place| heights.profiles[place.road].at(place.station_m).height_m);
+/// assert!(above - below >= 5.2 && heights.strict);
+/// assert!(heights.profiles[0].steepest([0.0, 800.0]).1.abs() <= 0.06);
+/// # Ok::<(), fairpath_drive::EngineeredError>(())
+/// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct EngineeredNetwork {
     /// The roads.

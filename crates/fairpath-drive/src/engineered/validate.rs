@@ -71,11 +71,11 @@ impl Problems {
     }
 
     fn positive(&mut self, field: String, found: f64) {
-        self.check(field, found, found >= POSITIVES[0] && found <= POSITIVES[1], POSITIVE);
+        self.check(field, found, (POSITIVES[0]..=POSITIVES[1]).contains(&found), POSITIVE);
     }
 
     fn not_negative(&mut self, field: String, found: f64) {
-        self.check(field, found, found >= 0.0 && found <= POSITIVES[1], NOT_NEGATIVE);
+        self.check(field, found, (0.0..=POSITIVES[1]).contains(&found), NOT_NEGATIVE);
     }
 
     fn of_road(&mut self, name: &str, road: &EngineeredRoad) {
@@ -140,7 +140,7 @@ impl Problems {
     }
 
     fn station(&mut self, field: String, station_m: f64, road: &EngineeredRoad) {
-        self.check(field, station_m, station_m >= 0.0 && station_m <= road.length_m, ON_ROAD);
+        self.check(field, station_m, (0.0..=road.length_m).contains(&station_m), ON_ROAD);
     }
 
     fn range(&mut self, name: &str, [from_m, to_m]: [f64; 2], road: &EngineeredRoad) {

@@ -15,7 +15,7 @@ const STEP_M: f64 = 5.0;
 const WAVE_M_PER_KMH: f64 = 2.5;
 
 /// A path over water lies this much above it, m.
-const FREEBOARD_M: f64 = 2.0;
+pub(super) const FREEBOARD_M: f64 = 2.0;
 
 /// What a path is raised or lowered at a crossing comes to an end within a length in which its grade takes up this share of the steepest it may have.
 const RAMP_SHARE: f64 = 0.4;

@@ -237,13 +237,23 @@ fn merged<'a>(spans: Vec<(PathId, [f64; 2])>, path_of: &dyn Fn(PathId) -> Option
     out
 }
 
-/// The driving lanes of a side, by their number among all lanes, from the middle outwards, and where their inner edge lies.
-fn driving(lanes: &[Lane]) -> Vec<(usize, f64, f64)> {
+/// A driving lane of a side.
+#[derive(Clone, Copy)]
+struct DrivingLane {
+    /// Its number among all lanes of the side, from the middle outwards.
+    number: usize,
+    /// From the middle to its inner edge, m.
+    inner_m: f64,
+    width_m: f64,
+}
+
+/// The driving lanes of a side, from the middle outwards.
+fn driving(lanes: &[Lane]) -> Vec<DrivingLane> {
     let mut inner = 0.0;
     let mut found = Vec::new();
     for (i, lane) in lanes.iter().enumerate() {
         if lane.kind == LaneKind::Driving {
-            found.push((i, inner, lane.width_m));
+            found.push(DrivingLane { number: i, inner_m: inner, width_m: lane.width_m });
         }
         inner += lane.width_m;
     }
@@ -301,17 +311,17 @@ fn ways_between<'a>(
     } else {
         Turning::Right
     };
-    let pairs: Vec<((usize, f64, f64), (usize, f64, f64))> = match turning {
+    let pairs: Vec<(DrivingLane, DrivingLane)> = match turning {
         Turning::Straight => ins.iter().copied().zip(outs.iter().copied()).collect(),
         Turning::Left => vec![(ins[0], outs[0])],
         Turning::Right => vec![(ins[ins.len() - 1], outs[outs.len() - 1])],
     };
-    for ((from_lane, inner_in, width_in), (to_lane, inner_out, width_out)) in pairs {
-        let (start, end) = (a.pose(pa, inner_in, true), b.pose(pb, inner_out, false));
+    for (lane_in, lane_out) in pairs {
+        let (start, end) = (a.pose(pa, lane_in.inner_m, true), b.pose(pb, lane_out.inner_m, false));
         let own = spans.iter().find(|(id, span)| {
             *id == a.path && a.path == b.path && a.forward != b.forward && is_span(pa, *span, [a, b])
         });
-        let along_itself = own.filter(|_| inner_in == 0.0 && inner_out == 0.0);
+        let along_itself = own.filter(|_| lane_in.inner_m == 0.0 && lane_out.inner_m == 0.0);
         let (plan, profile) = match along_itself {
             // Straight on along the road itself.
             Some((_, span)) => {
@@ -332,7 +342,16 @@ fn ways_between<'a>(
                 (plan, profile)
             }
         };
-        ways.push(Way { from, to, from_lane, to_lane, turning, plan, profile, widths_m: [width_in, width_out] });
+        ways.push(Way {
+            from,
+            to,
+            from_lane: lane_in.number,
+            to_lane: lane_out.number,
+            turning,
+            plan,
+            profile,
+            widths_m: [lane_in.width_m, lane_out.width_m],
+        });
     }
 }
 

@@ -2,6 +2,7 @@
 
 mod contact;
 mod elevation;
+mod engineer;
 mod junction;
 mod path;
 mod sketch;
@@ -16,6 +17,7 @@ pub use structure::{Carrier, Structure, StructureLimits};
 
 pub(crate) use contact::{crossings_between, crossings_within, decide};
 pub(crate) use elevation::{alone, profile_with, separation_m, wanted_heights};
+pub(crate) use engineer::{Site, engineered};
 pub(crate) use junction::junctions;
 pub(crate) use sketch::points_along;
 pub(crate) use structure::structures;

@@ -120,6 +120,15 @@ impl Scene {
         scene
     }
 
+    /// The ground alone.
+    #[must_use]
+    pub fn ground(state: &State, results: &Results, options: &SceneOptions) -> Self {
+        let mut scene = Self::default();
+        ground_mesh::add(&mut scene, state, results, options);
+        scene.parts.retain(|p| !p.mesh.triangles.is_empty());
+        scene
+    }
+
     fn part(&mut self, name: impl Into<String>, finish: Finish, mesh: Mesh) {
         self.parts.push(Part { name: name.into(), finish, mesh });
     }

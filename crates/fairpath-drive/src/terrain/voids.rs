@@ -107,26 +107,49 @@ fn coarser(level: &Level) -> Level {
 fn relax(level: &mut Level) {
     let [columns, rows] = level.size;
     for row in 0..rows {
-        for column in 0..columns {
-            let i = row * columns + column;
-            if level.known[i] {
-                continue;
-            }
-            let (mut sum, mut count) = (0.0, 0.0);
-            let mut add = |there: bool, i: usize| {
-                if there {
-                    sum += level.heights[i];
-                    count += 1.0;
-                }
-            };
-            add(column > 0, i.wrapping_sub(1));
-            add(column + 1 < columns, i + 1);
-            add(row > 0, i.wrapping_sub(columns));
-            add(row + 1 < rows, i + columns);
-            if count > 0.0 {
-                level.heights[i] = sum / count;
-            }
+        if row == 0 || row + 1 == rows || columns < 2 {
+            (0..columns).for_each(|column| relax_one(level, [column, row]));
+            continue;
         }
+        relax_one(level, [0, row]);
+        // Most are here, and all their four neighbours are there: half the time of asking each.
+        let at = row * columns;
+        let known = &level.known[at..at + columns];
+        let (above, rest) = level.heights.split_at_mut(at);
+        let (line, below) = rest.split_at_mut(columns);
+        let (above, below) = (&above[at - columns..][..columns], &below[..columns]);
+        let mut left = line[0];
+        for column in 1..columns - 1 {
+            if !known[column] {
+                // In the order of `relax_one`, so that it is the same to the bit.
+                line[column] = (left + line[column + 1] + above[column] + below[column]) * 0.25;
+            }
+            left = line[column];
+        }
+        relax_one(level, [columns - 1, row]);
+    }
+}
+
+/// Lets one height, if it is unknown, be the mean of its neighbours, of which there may be fewer than four.
+fn relax_one(level: &mut Level, [column, row]: [usize; 2]) {
+    let [columns, rows] = level.size;
+    let i = row * columns + column;
+    if level.known[i] {
+        return;
+    }
+    let (mut sum, mut count) = (0.0, 0.0);
+    let mut add = |there: bool, i: usize| {
+        if there {
+            sum += level.heights[i];
+            count += 1.0;
+        }
+    };
+    add(column > 0, i.wrapping_sub(1));
+    add(column + 1 < columns, i + 1);
+    add(row > 0, i.wrapping_sub(columns));
+    add(row + 1 < rows, i + columns);
+    if count > 0.0 {
+        level.heights[i] = sum / count;
     }
 }
 
@@ -155,6 +178,21 @@ mod tests {
         for (i, &height) in whole.iter().enumerate() {
             let allowed = if is_void(i) { 3.0 } else { 0.0 };
             assert!((samples.get(i) - height).abs() <= allowed, "{i}: {} for {height}", samples.get(i));
+        }
+    }
+
+    #[test]
+    fn whole_lines_are_relaxed_as_one_after_the_other_would_be() {
+        for size in [[1, 7], [2, 5], [3, 3], [17, 1], [23, 19]] {
+            let heights: Vec<f64> = (0..size[0] * size[1]).map(|i| ((i * i * 37) % 101) as f64 / 7.0).collect();
+            let known = (0..heights.len()).map(|i| i % 5 == 2).collect();
+            let mut quick = Level { size, heights, known };
+            let mut slow = Level { size, heights: quick.heights.clone(), known: quick.known.clone() };
+            for _ in 0..3 {
+                relax(&mut quick);
+                (0..slow.heights.len()).for_each(|i| relax_one(&mut slow, [i % size[0], i / size[0]]));
+            }
+            assert_eq!(quick.heights, slow.heights, "{size:?}");
         }
     }
 

@@ -37,7 +37,10 @@ fn the_crossing_that_cannot_be_had_is_named() {
         assert!(shortfall.from_m >= range[0] && shortfall.to_m <= range[1], "{shortfall:?}");
         assert!(shortfall.because.iter().any(|demand| matches!(demand, Demand::Over { over: 1, .. })));
         assert!(!shortfall.because.iter().any(|demand| matches!(demand, Demand::Over { over: 0, .. })));
-        assert!(shortfall.because.iter().any(|d| matches!(d, Demand::Height { at, .. } if at.road == 1)), "{shortfall:?}");
+        assert!(
+            shortfall.because.iter().any(|d| matches!(d, Demand::Height { at, .. } if at.road == 1)),
+            "{shortfall:?}"
+        );
         let text = shortfall.to_string();
         assert!(text.starts_with("road \"pass\", stations 12"), "{text}");
         assert!(text.contains("pass 5.2 m over road \"valley\" at station 310 (here 1280)"), "{text}");

@@ -77,7 +77,9 @@ fn least(road: &EngineeredRoad, rounds: usize) -> (f64, f64) {
     }
     let bend_limit = h * h / (100.0 * limits.crest_k_m);
     for i in 0..n {
-        rows.push((0..n + 2).map(|k| [1.0, -2.0, 1.0].get(k.wrapping_sub(i)).map_or(0.0, |f| f / bend_limit)).collect());
+        rows.push(
+            (0..n + 2).map(|k| [1.0, -2.0, 1.0].get(k.wrapping_sub(i)).map_or(0.0, |f| f / bend_limit)).collect(),
+        );
     }
     let sag = limits.crest_k_m / limits.sag_k_m;
     let rho = 60.0;

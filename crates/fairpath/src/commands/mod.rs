@@ -2,6 +2,7 @@
 
 pub(crate) mod compare;
 pub(crate) mod convert;
+pub(crate) mod drive;
 pub(crate) mod edit;
 pub(crate) mod fit;
 mod fit_inputs;

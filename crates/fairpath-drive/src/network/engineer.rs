@@ -1,0 +1,142 @@
+//! Heights of those paths that are to be engineered: paths that hang together come in, with the heights that the others have; the profiles of least earthwork go out.
+
+use super::contact::{Crossing, Meeting};
+use super::elevation::{FREEBOARD_M, separation_m};
+use super::path::{HeightMode, Path, PathId};
+use crate::engineered::{
+    ClearanceAt, EarthworkSection, EngineeredError, EngineeredNetwork, EngineeredRoad, FixedPoint, GradeLimits,
+    HeightBound, MeetAt, RoadPoint,
+};
+use crate::ground::{EarthworkOptions, Soils};
+use crate::profile::Profile;
+use crate::rules::DesignRules;
+use crate::terrain::Heightfield;
+
+/// Vertical curves begin and end at multiples of this length, m, or of a quarter of the path.
+const KNOTS_M: f64 = 10.0;
+
+/// The ground is told at this spacing, m.
+const GROUND_M: f64 = 5.0;
+
+/// What the heights of engineered paths depend on beside the paths.
+pub(crate) struct Site<'a> {
+    pub(crate) natural: &'a Heightfield,
+    pub(crate) water_m: Option<f64>,
+    pub(crate) soils: &'a Soils,
+    pub(crate) rules: &'a DesignRules,
+    pub(crate) earthwork: &'a EarthworkOptions,
+}
+
+/// The profiles of those of the paths that are engineered. `others` are the profiles that the paths have without that, in the paths' order: those of paths that are not engineered are
+/// kept to.
+///
+/// # Errors
+/// When the limits contradict each other.
+pub(crate) fn engineered(
+    paths: &[&Path],
+    others: &[Profile],
+    crossings: &[Crossing],
+    site: &Site<'_>,
+) -> Result<Vec<Option<Profile>>, EngineeredError> {
+    let mut number = vec![None; paths.len()];
+    let mut roads = Vec::new();
+    for (i, path) in paths.iter().enumerate() {
+        if path.heights == HeightMode::Engineered {
+            number[i] = Some(roads.len());
+            roads.push(road(path, site));
+        }
+    }
+    let of = |id: PathId| paths.iter().position(|p| p.id == id);
+    let (mut over, mut meet) = (Vec::new(), Vec::new());
+    for crossing in crossings {
+        let (Some(a), Some(b)) = (of(crossing.first.path), of(crossing.second.path)) else { continue };
+        let (s, t) = (crossing.first.station_m, crossing.second.station_m);
+        let separation = separation_m(paths, crossing);
+        let height = |i: usize, station: f64| others[i].at(station).height_m;
+        match (number[a], number[b], crossing.meeting) {
+            (None, None, _) => {}
+            (Some(a), Some(b), meeting) => {
+                let (first, second) = (RoadPoint { road: a, station_m: s }, RoadPoint { road: b, station_m: t });
+                match meeting {
+                    Meeting::Level => meet.push(MeetAt { a: first, b: second }),
+                    Meeting::Over => over.push(ClearanceAt { upper: first, lower: second, clearance_m: separation }),
+                    Meeting::Under => over.push(ClearanceAt { upper: second, lower: first, clearance_m: separation }),
+                }
+            }
+            (Some(road), None, meeting) => held(&mut roads[road], s, height(b, t), meeting, separation),
+            (None, Some(road), meeting) => held(&mut roads[road], t, height(a, s), meeting.turned(), separation),
+        }
+    }
+    let mut found = EngineeredNetwork { roads, over, meet }.solve()?.profiles.into_iter();
+    Ok(number.into_iter().map(|n| n.and_then(|_| found.next())).collect())
+}
+
+/// A road that meets, or passes over or under, a path that is not engineered.
+fn held(road: &mut EngineeredRoad, station_m: f64, height_m: f64, meeting: Meeting, separation_m: f64) {
+    let at = station_m.clamp(0.0, road.length_m);
+    let bound = |lowest_m, highest_m| HeightBound { from_m: at, to_m: at, lowest_m, highest_m };
+    match meeting {
+        Meeting::Level => road.fixed.push(FixedPoint { station_m: at, height_m, grade: None }),
+        Meeting::Over => road.bounds.push(bound(Some(height_m + separation_m), None)),
+        Meeting::Under => road.bounds.push(bound(None, Some(height_m - separation_m))),
+    }
+}
+
+fn road(path: &Path, site: &Site<'_>) -> EngineeredRoad {
+    let length_m = path.length_m();
+    let count = (length_m / GROUND_M).ceil().max(2.0) as usize;
+    let ground: Vec<[f64; 2]> = (0..=count)
+        .map(|i| {
+            let station = length_m * i as f64 / count as f64;
+            [station, site.natural.height(path.plan.point_at(station))]
+        })
+        .collect();
+    let kmh = path.speed_limits().iter().map(|l| l.1).fold(0.0, f64::max);
+    let rule = site.rules.at(kmh);
+    let soil = site.soils.at(path.plan.point_at(0.5 * length_m));
+    // Drawn heights are fixed points at their ends and where they turn.
+    let fixed = path.drawn.iter().flat_map(|d| &d.points_m);
+    EngineeredRoad {
+        name: path.name.clone(),
+        length_m,
+        knot_spacing_m: KNOTS_M.min(0.25 * length_m),
+        closed: path.plan.is_closed(),
+        limits: GradeLimits { max_grade: path.section.max_grade, crest_k_m: rule.k_crest, sag_k_m: rule.k_sag },
+        section: EarthworkSection {
+            platform_m: path.section.width_m() + 2.0 * site.earthwork.verge_m,
+            slope_run: 0.5 * (soil.cut_run() + soil.fill_run()),
+            cut_weight: 1.0,
+            fill_weight: 1.0,
+        },
+        fixed: fixed
+            .map(|[station_m, height_m]| FixedPoint { station_m: *station_m, height_m: *height_m, grade: None })
+            .collect(),
+        bounds: wet(&ground, site.water_m),
+        start_grade: None,
+        end_grade: None,
+        stretches: Vec::new(),
+        ground,
+    }
+}
+
+/// Over water a road keeps its freeboard.
+fn wet(ground: &[[f64; 2]], water_m: Option<f64>) -> Vec<HeightBound> {
+    let Some(water) = water_m else { return Vec::new() };
+    let mut bounds: Vec<HeightBound> = Vec::new();
+    let mut before = false;
+    for [station, z] in ground {
+        let wet = *z < water;
+        match bounds.last_mut() {
+            Some(last) if wet && before => last.to_m = *station,
+            _ if wet => bounds.push(HeightBound {
+                from_m: *station,
+                to_m: *station,
+                lowest_m: Some(water + FREEBOARD_M),
+                highest_m: None,
+            }),
+            _ => {}
+        }
+        before = wet;
+    }
+    bounds
+}

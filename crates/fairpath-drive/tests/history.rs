@@ -1,0 +1,146 @@
+//! Documents over time: what follows from a state does not depend on how it was reached, and undoing and doing again lead to the same bits.
+
+use fairpath_drive::{
+    Command, CrossingSet, Document, HeightMode, Landscape, NoFiles, Section, SketchAs, Soil, StructureLimits, TerrainSource,
+};
+
+/// A small generator of its own: the same on every platform.
+struct Random(u64);
+
+impl Random {
+    fn new(seed: u64) -> Self {
+        Self(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1)
+    }
+
+    fn next(&mut self) -> f64 {
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 7;
+        self.0 ^= self.0 << 17;
+        (self.0 >> 11) as f64 / (1_u64 << 53) as f64
+    }
+
+    fn below(&mut self, count: usize) -> usize {
+        (self.next() * count as f64) as usize
+    }
+
+    fn place(&mut self) -> [f64; 2] {
+        [20.0 + 460.0 * self.next(), 20.0 + 460.0 * self.next()]
+    }
+
+    fn square(&mut self, side: f64) -> Vec<[f64; 2]> {
+        let [x, y] = self.place();
+        vec![[x, y], [x + side, y], [x + side, y + side], [x, y + side]]
+    }
+
+    fn of<T: Copy>(&mut self, all: &[T]) -> T {
+        all[self.below(all.len())]
+    }
+}
+
+fn name(document: &Document, random: &mut Random) -> String {
+    let paths = &document.state().paths;
+    if paths.is_empty() { "none".to_owned() } else { paths[random.below(paths.len())].name.clone() }
+}
+
+fn command(document: &Document, random: &mut Random) -> Command {
+    match random.below(16) {
+        0..=4 => {
+            let count = 3 + random.below(3);
+            let (from, to) = (random.place(), random.place());
+            let points_m = (0..=count)
+                .map(|i| {
+                    let t = i as f64 / count as f64;
+                    let off = 25.0 * (random.next() - 0.5);
+                    [from[0] + t * (to[0] - from[0]) + off, from[1] + t * (to[1] - from[1]) - off]
+                })
+                .collect();
+            Command::Sketch {
+                points_m,
+                layer: "road".to_owned(),
+                name: None,
+                section: Some(random.of(&Section::SHIPPED).to_owned()),
+                sketch_as: random.of(&[SketchAs::Auto, SketchAs::New]),
+                closed: false,
+                pixel_m: 1.0,
+                min_radius_m: Some(15.0),
+            }
+        }
+        5 | 6 => {
+            let crossings = document.results().map_or(&[][..], |r| &r.crossings);
+            let crossing = if crossings.is_empty() { None } else { Some(crossings[random.below(crossings.len())]) };
+            let near = crossing.map_or([0.0; 2], |c| [c.point.x, c.point.y]);
+            let path = crossing.and_then(|c| document.state().path_of(c.first.path)).map(|p| p.name.clone());
+            let set = random.of(&[CrossingSet::Over, CrossingSet::Under, CrossingSet::Intersect]);
+            Command::Crossing { near_m: near, set, path, other: None }
+        }
+        7 => Command::Delete { lasso_m: Some(random.square(60.0)), path: None },
+        8 => Command::Delete { lasso_m: None, path: Some(name(document, random)) },
+        9 => Command::Elevation {
+            path: name(document, random),
+            points_m: vec![[40.0, 20.0 + 20.0 * random.next()], [70.0, 30.0 * random.next()]],
+        },
+        10 => Command::Speed { lasso_m: Some(random.square(150.0)), path: None, kmh: 30.0 + 10.0 * random.below(6) as f64 },
+        11 => Command::Foliage { lasso_m: random.square(120.0), density: random.next() },
+        12 => Command::Soil {
+            lasso_m: (random.next() < 0.7).then(|| random.square(150.0)),
+            class: random.of(&[Soil::Rock, Soil::Gravel, Soil::Sand, Soil::Clay]),
+        },
+        13 => Command::Section { path: name(document, random), template: random.of(&Section::SHIPPED).to_owned() },
+        14 => Command::Heights {
+            path: Some(name(document, random)),
+            mode: random.of(&[HeightMode::Fair, HeightMode::Draped, HeightMode::Engineered]),
+        },
+        _ => Command::Settings {
+            structures: Some(StructureLimits { bridge_above_m: 3.0 + 8.0 * random.next(), ..StructureLimits::default() }),
+            earthwork: None,
+            rules: None,
+            seed: Some(random.below(5) as u64),
+        },
+    }
+}
+
+fn islands() -> Command {
+    Command::Terrain(TerrainSource {
+        synthetic: Some(Landscape::Islands),
+        size: Some(126),
+        cell_m: Some(4.0),
+        water_level_m: Some(0.0),
+        ..TerrainSource::default()
+    })
+}
+
+#[test]
+fn what_follows_does_not_depend_on_the_way_there_and_undoing_leads_back_to_the_same_bits() {
+    let mut refused = 0;
+    let mut done = 0;
+    for seed in 0..100 {
+        let mut random = Random::new(seed + 1);
+        let mut document = Document::new();
+        document.run(islands(), &NoFiles).unwrap();
+        let mut trail = vec![document.results().unwrap().clone()];
+        for _ in 0..8 {
+            let command = command(&document, &mut random);
+            match document.run(command, &NoFiles) {
+                Ok(_) => {
+                    done += 1;
+                    trail.push(document.results().unwrap().clone());
+                }
+                Err(_) => refused += 1,
+            }
+        }
+        let anew = document.results_anew().unwrap();
+        assert!(anew == **document.results().unwrap(), "seed {seed}: {:?}", document.commands());
+        for results in trail.iter().rev() {
+            assert!(results == document.results().unwrap(), "seed {seed}, backwards");
+            document.undo();
+        }
+        assert!(document.results().is_none() && !document.undo());
+        for results in &trail {
+            assert!(document.redo());
+            assert!(results == document.results().unwrap(), "seed {seed}, forwards");
+        }
+        assert!(!document.redo());
+    }
+    // Commands about paths are refused where there are none; most are not.
+    assert!(done > 2 * refused, "{done} done, {refused} refused");
+}

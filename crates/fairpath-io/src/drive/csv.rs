@@ -1,0 +1,79 @@
+//! A table of stations: where each path runs and how high, every few metres and at every join.
+
+use super::export::DriveExport;
+use crate::error::Error;
+use fairpath_drive::{Carrier, CrossSection, PathResult};
+
+/// Rows are no further apart, m; at joins of the plan and at ends of bridges and tunnels there are rows besides.
+const EVERY_M: f64 = 10.0;
+
+pub(super) fn write(export: &DriveExport<'_>) -> Result<Vec<u8>, Error> {
+    let mut writer = ::csv::Writer::from_writer(Vec::new());
+    let unwritable = |e: ::csv::Error| Error::Unwritable {
+        format: "CSV",
+        place: "the table of stations".to_owned(),
+        problem: e.to_string(),
+    };
+    let head = [
+        "path", "station_m", "x_m", "y_m", "z_m", "ground_m", "heading_rad", "curvature_per_m", "grade", "speed_kmh",
+        "carrier", "cut_m2", "fill_m2",
+    ];
+    writer.write_record(head).map_err(unwritable)?;
+    for path in &export.results.paths {
+        for station in stations(path) {
+            let pose = path.path.plan.pose_at(station);
+            let at = path.profile.at(station);
+            let carrier = path.structures.iter().find(|s| s.from_m <= station && station <= s.to_m).map(|s| s.carrier);
+            let section = nearest(&path.sections, station);
+            let [cut, fill] = section.map_or([0.0; 2], |s| s.areas_m2);
+            let numbers = [
+                station,
+                pose.point.x,
+                pose.point.y,
+                at.height_m,
+                export.results.ground.natural().height(pose.point),
+                pose.heading,
+                pose.curvature,
+                at.grade,
+                path.path.speed_limit_kmh(station),
+            ];
+            let mut row = vec![path.path.name.clone()];
+            row.extend(numbers.map(|x| x.to_string()));
+            let carrier = match carrier {
+                Some(Carrier::Bridge) => "bridge",
+                Some(Carrier::Tunnel) => "tunnel",
+                None => "ground",
+            };
+            row.push(carrier.to_owned());
+            row.extend([cut, fill].map(|x| x.to_string()));
+            writer.write_record(&row).map_err(unwritable)?;
+        }
+    }
+    writer.into_inner().map_err(|e| Error::Unwritable {
+        format: "CSV",
+        place: "the table of stations".to_owned(),
+        problem: e.to_string(),
+    })
+}
+
+fn stations(path: &PathResult) -> Vec<f64> {
+    let length = path.path.length_m();
+    let count = (length / EVERY_M).ceil().max(1.0) as usize;
+    let mut all: Vec<f64> = (0..=count).map(|i| (i as f64 * EVERY_M).min(length)).collect();
+    let mut at = 0.0;
+    for segment in path.path.plan.segments() {
+        at += segment.length;
+        all.push(at.min(length));
+    }
+    all.extend(path.structures.iter().flat_map(|s| [s.from_m, s.to_m]));
+    all.sort_by(f64::total_cmp);
+    all.dedup_by(|b, a| *b - *a < 1e-6);
+    all
+}
+
+fn nearest(sections: &[CrossSection], station: f64) -> Option<&CrossSection> {
+    let i = sections.partition_point(|s| s.station_m < station);
+    let around = [i.checked_sub(1).and_then(|i| sections.get(i)), sections.get(i)];
+    let off = |s: &&CrossSection| (s.station_m - station).abs();
+    around.into_iter().flatten().min_by(|a, b| off(a).total_cmp(&off(b)))
+}

@@ -1,0 +1,22 @@
+//! Networks of paths on a terrain: scripts and projects in, and files for other programs out.
+
+mod csv;
+mod export;
+mod files;
+mod geojson;
+mod gltf;
+mod import;
+mod landxml;
+mod opendrive;
+mod project;
+mod script;
+mod summary;
+mod xml;
+
+pub use export::{DriveExport, ExportFormat, encode_drive};
+pub use files::TerrainFolder;
+pub use project::{DriveProject, encode_project, is_project, read_project};
+pub use script::{DriveScript, ScriptCommand, read_drive_script, read_drive_script_from};
+pub use summary::{PathSummary, summaries};
+
+pub(crate) use script::ScriptRecord;

@@ -1,0 +1,193 @@
+//! `fairpath drive`: roads on a terrain, by scripts of the same commands that the application sends.
+
+use std::path::Path;
+use std::time::Instant;
+
+use anyhow::{Context, Result, bail};
+use fairpath_drive::{Breach, Command, Document, Results, State};
+use fairpath_io::{
+    DriveExport, ExportFormat, PathSummary, ReadOptions, ScriptCommand, TerrainFolder, encode_drive, encode_project,
+    is_project, read_drive_script, read_project, summaries,
+};
+
+use super::Ending;
+use crate::args::{DriveArgs, DriveCheckArgs, DriveRunArgs, DriveVerb};
+use crate::interrupt;
+use crate::output::{Ready, check_place};
+use crate::printer::{Printer, columns};
+
+pub(crate) fn run(args: &DriveArgs, printer: &mut Printer) -> Result<Ending> {
+    match &args.verb {
+        DriveVerb::Run(args) => run_script(args, printer),
+        DriveVerb::Check(args) => check(args, printer),
+    }
+}
+
+fn run_script(args: &DriveRunArgs, printer: &mut Printer) -> Result<Ending> {
+    let mut exports = Vec::new();
+    for path in &args.export {
+        check_place(path)?;
+        let Some(format) = ExportFormat::from_path(path) else {
+            let known: Vec<&str> = ExportFormat::ALL.iter().map(|f| f.extension()).collect();
+            bail!("{}: networks are written as {}; use such an extension", path.display(), known.join(", "));
+        };
+        exports.push((path, format));
+    }
+    if let Some(path) = &args.project {
+        check_place(path)?;
+    }
+    interrupt::install();
+    let document = opened(&args.script, args.times, printer)?;
+    let (state, results) = laid(&document, &args.script)?;
+    let mut ready = Ready::default();
+    let name = args.script.file_stem().map(|s| s.to_string_lossy().into_owned()).unwrap_or_default();
+    for (path, format) in exports {
+        let begun = Instant::now();
+        let export = DriveExport { state, results, name: &name };
+        let bytes = encode_drive(&export, format).with_context(|| path.display().to_string())?;
+        if args.times {
+            printer.note(&format!("{:8.1} ms  {}", ms(begun), path.display()));
+        }
+        ready.add(path, bytes);
+    }
+    if let Some(path) = &args.project {
+        ready.add(path, encode_project(&document)?);
+    }
+    ready.write()?;
+    printer.result(&table(&summaries(state, results)))?;
+    Ok(Ending::Done)
+}
+
+fn check(args: &DriveCheckArgs, printer: &mut Printer) -> Result<Ending> {
+    interrupt::install();
+    let document = opened(&args.project, false, printer)?;
+    let (state, results) = laid(&document, &args.project)?;
+    let all = summaries(state, results);
+    let rows: Vec<Vec<String>> = all.iter().flat_map(|path| path.breaches.iter().map(|b| breach(&path.name, b))).collect();
+    let broken = !rows.is_empty();
+    let head = ["path", "station m", "from m", "to m", "rule", "value", "limit", "unit"];
+    let head = vec![head.map(str::to_owned).to_vec()];
+    printer.result(&if broken { columns(&[head, rows].concat()) } else { "no rule is broken\n".to_owned() })?;
+    Ok(if broken && args.strict { Ending::SomeFailed } else { Ending::Done })
+}
+
+/// The document that a script or a project leads to.
+fn opened(path: &Path, times: bool, printer: &mut Printer) -> Result<Document> {
+    let options = ReadOptions::default();
+    let head = std::fs::read(path).map(|bytes| is_project(&bytes)).unwrap_or(false);
+    if head {
+        let project = read_project(path, &options)?;
+        if !project.same {
+            printer.note(&format!(
+                "{}: what follows from its commands is not what was saved with them: a terrain or the program changed",
+                path.display()
+            ));
+        }
+        return Ok(project.document);
+    }
+    let script = read_drive_script(path, &options)?;
+    let files = TerrainFolder::beside(path);
+    let mut document = Document::new();
+    for (i, command) in script.commands.into_iter().enumerate() {
+        let commands = match command {
+            ScriptCommand::Document(command) => vec![command],
+            ScriptCommand::Import(import) => {
+                let Some(terrain) = document.state().terrain.as_ref() else {
+                    bail!("{}: command {} (import): lay the terrain first", path.display(), i + 1);
+                };
+                let (sketches, left_out) = import.sketches(files.folder(), &terrain.field, terrain.georeference.as_ref())?;
+                if left_out > 0 {
+                    printer.note(&format!("{}: {left_out} lines were left out", import.file));
+                }
+                sketches
+            }
+        };
+        for command in commands {
+            run_one(&mut document, command, &files, (path, i + 1, times), printer)?;
+        }
+    }
+    for warning in files.warnings() {
+        printer.note(&warning.text);
+    }
+    Ok(document)
+}
+
+fn run_one(
+    document: &mut Document,
+    command: Command,
+    files: &TerrainFolder,
+    (path, number, times): (&Path, usize, bool),
+    printer: &mut Printer,
+) -> Result<()> {
+    let name = serde_json::to_value(&command)
+        .ok()
+        .and_then(|v| v.get("do").and_then(serde_json::Value::as_str).map(str::to_owned))
+        .unwrap_or_default();
+    let begun = Instant::now();
+    let outcome = document
+        .run(command, files)
+        .with_context(|| format!("{}: command {number} ({name})", path.display()))?;
+    if times {
+        printer.note(&format!("{:8.1} ms  command {number} ({name})", ms(begun)));
+    }
+    for warning in outcome.warnings {
+        printer.note(&format!("{}: command {number} ({name}): {}", path.display(), warning.text));
+    }
+    Ok(())
+}
+
+fn ms(since: Instant) -> f64 {
+    1e3 * since.elapsed().as_secs_f64()
+}
+
+/// What there is to write of a document.
+fn laid<'a>(document: &'a Document, path: &Path) -> Result<(&'a State, &'a Results)> {
+    match document.results() {
+        Some(results) => Ok((document.state(), results)),
+        None => bail!("{}: it lays no terrain, so that nothing follows from it", path.display()),
+    }
+}
+
+/// The table of paths.
+fn table(all: &[PathSummary]) -> String {
+    let head = [
+        "path", "length m", "curves", "min R m", "max grade %", "lowest m", "highest m", "cut m3", "fill m3", "bridges",
+        "m", "tunnels", "m", "signs", "breaches",
+    ];
+    let mut rows = vec![head.map(str::to_owned).to_vec()];
+    for path in all {
+        let radius = if path.min_radius_m.is_finite() { format!("{:.1}", path.min_radius_m) } else { "-".to_owned() };
+        rows.push(vec![
+            path.name.clone(),
+            format!("{:.0}", path.length_m),
+            path.curves.to_string(),
+            radius,
+            format!("{:.1}", 100.0 * path.max_grade),
+            format!("{:.1}", path.heights_m[0]),
+            format!("{:.1}", path.heights_m[1]),
+            format!("{:.0}", path.earthwork_m3[0]),
+            format!("{:.0}", path.earthwork_m3[1]),
+            path.bridges.0.to_string(),
+            format!("{:.0}", path.bridges.1),
+            path.tunnels.0.to_string(),
+            format!("{:.0}", path.tunnels.1),
+            path.signs.to_string(),
+            path.breaches.len().to_string(),
+        ]);
+    }
+    columns(&rows)
+}
+
+fn breach(path: &str, breach: &Breach) -> Vec<String> {
+    let number = |x: f64| if x.abs() < 10.0 { format!("{x:.3}") } else { format!("{x:.1}") };
+    vec![
+        path.to_owned(),
+        format!("{:.0}", breach.station_m),
+        format!("{:.0}", breach.range_m[0]),
+        format!("{:.0}", breach.range_m[1]),
+        breach.rule.name().to_owned(),
+        number(breach.value),
+        number(breach.limit),
+        breach.rule.unit().to_owned(),
+    ]
+}
