@@ -1,0 +1,210 @@
+//! Files of roads, judged by programs that nobody here wrote, and by walks over their geometry with other formulas than the project's own.
+//! Which judges look at a file is told by its extension: OpenDRIVE, LandXML, GeoJSON and glTF.
+
+mod opendrive;
+mod outlines;
+mod self_test;
+mod verdict;
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::thread;
+use std::time::{Duration, Instant};
+
+use anyhow::{Context, Result, bail};
+
+use self::verdict::Verdict;
+use crate::steps::{Outcome, Steps};
+use crate::{process, tools, tree};
+
+/// How many faults, and how many warnings, of one judge about one file are shown.
+const SHOWN: usize = 6;
+
+/// One program, and how it is asked about one file.
+struct Judge {
+    name: &'static str,
+    /// Of the files that it reads.
+    extension: &'static str,
+    /// What it says of a file, with a folder for what it writes meanwhile; an error where it did not come to a verdict.
+    ask: fn(&Path, &Path) -> Result<Verdict>,
+}
+
+/// All of them, in the order in which they are asked.
+const JUDGES: [Judge; 10] = [
+    // First, since it takes as long as the others together.
+    Judge { name: "asam", extension: "xodr", ask: opendrive::asam },
+    Judge { name: "plan", extension: "xodr", ask: opendrive::plan },
+    Judge { name: "maliput", extension: "xodr", ask: opendrive::maliput },
+    Judge { name: "sumo", extension: "xodr", ask: opendrive::sumo },
+    Judge { name: "carla", extension: "xodr", ask: opendrive::carla },
+    Judge { name: "alignments", extension: "xml", ask: outlines::alignments },
+    Judge { name: "xmllint", extension: "xml", ask: outlines::xmllint },
+    Judge { name: "check-geojson", extension: "geojson", ask: outlines::check_geojson },
+    Judge { name: "ogrinfo", extension: "geojson", ask: outlines::ogrinfo },
+    Judge { name: "gltf", extension: "glb", ask: outlines::gltf },
+];
+
+/// Judges files, and first the judges themselves where that is wished.
+pub(crate) fn run(files: &[PathBuf], with_self_test: bool) -> Result<()> {
+    if files.is_empty() && !with_self_test {
+        bail!("name the files to judge, or ask for --self-test");
+    }
+    let mut steps = Steps::default();
+    if with_self_test {
+        steps.step("judges of roads", self_test);
+    }
+    if !files.is_empty() {
+        steps.step("files of roads", || judge(files));
+    }
+    steps.finish()
+}
+
+/// Whether every judge finds the faults that it is there for, and none where there are none.
+pub(crate) fn self_test() -> Result<Outcome> {
+    match install(&JUDGES.map(|judge| judge.extension)) {
+        Ok(()) => self_test::run(),
+        Err(error) if tree::on_build_server() => Err(error),
+        Err(error) => Ok(Outcome::Skipped(format!("{error:#}"))),
+    }
+}
+
+/// What all judges say of the files: an error if one finds fault, or if there is none for a file.
+pub(crate) fn judge(files: &[PathBuf]) -> Result<Outcome> {
+    let extensions: Vec<&str> = files.iter().filter_map(|file| file.extension()?.to_str()).collect();
+    match install(&extensions) {
+        Ok(()) => {}
+        Err(error) if tree::on_build_server() => return Err(error),
+        Err(error) => return Ok(Outcome::Skipped(format!("{error:#}"))),
+    }
+    let scratch = tree::scratch("judge-roads")?;
+    let (mut times, mut refused, mut warnings) = (Times::default(), Vec::new(), 0);
+    for file in files {
+        for (judge, verdict) in times.ask(&judges_of(file)?, file, &scratch)? {
+            match verdict {
+                Ok(verdict) => {
+                    show(judge, file, &verdict);
+                    warnings += verdict.warnings.len();
+                    if !verdict.faults.is_empty() {
+                        refused.push(format!("{} by {}", file.display(), judge.name));
+                    }
+                }
+                // A judge that a file kills has not passed it, and the others are still to be heard.
+                Err(error) => {
+                    println!("BROKEN  {:<14} {}: {error:#}", judge.name, file.display());
+                    refused.push(format!("{} by {}, which broke", file.display(), judge.name));
+                }
+            }
+        }
+    }
+    times.show();
+    if times.asked() == 0 {
+        bail!("no judge looked at anything");
+    }
+    if !refused.is_empty() {
+        bail!("refused: {}", refused.join("; "));
+    }
+    Ok(Outcome::Passed(format!("{} verdicts on {} files, no fault, {warnings} warnings", times.asked(), files.len())))
+}
+
+/// Installs what the judges of some extensions need, where it is missing.
+fn install(extensions: &[&str]) -> Result<()> {
+    if extensions.contains(&"xodr") {
+        tools::roads_python()?;
+        tools::roads_python_3_10()?;
+    }
+    if extensions.contains(&"xodr") || extensions.contains(&"xml") {
+        tools::python()?;
+    }
+    if extensions.contains(&"xml") {
+        tools::xmllint()?;
+    }
+    if extensions.contains(&"geojson") {
+        tools::node_packages("roads/geojson")?;
+        tools::ogrinfo()?;
+    }
+    if extensions.contains(&"glb") {
+        tools::gltf_validator()?;
+    }
+    Ok(())
+}
+
+fn judges_of(file: &Path) -> Result<Vec<&'static Judge>> {
+    let extension = file.extension().and_then(|extension| extension.to_str()).unwrap_or_default();
+    let judges: Vec<&Judge> = JUDGES.iter().filter(|judge| judge.extension == extension).collect();
+    if judges.is_empty() {
+        bail!("no judge reads {}: there are some for .xodr, .xml, .geojson and .glb", file.display());
+    }
+    Ok(judges)
+}
+
+fn show(judge: &Judge, file: &Path, verdict: &Verdict) {
+    let word = if verdict.faults.is_empty() { "ok" } else { "REFUSED" };
+    println!("{word:<7} {:<14} {}: {}", judge.name, file.display(), verdict.note);
+    for (kind, texts) in [("fault", &verdict.faults), ("warning", &verdict.warnings)] {
+        for text in texts.iter().take(SHOWN) {
+            println!("        {kind}: {text}");
+        }
+        if texts.len() > SHOWN {
+            println!("        … {} {kind}s in all", texts.len());
+        }
+    }
+}
+
+/// How often each judge was asked, and how long it took.
+#[derive(Default)]
+struct Times(BTreeMap<&'static str, (usize, Duration)>);
+
+impl Times {
+    /// Asks some judges about one file, two at a time: their verdicts in the same order.
+    fn ask<'a>(
+        &mut self,
+        judges: &[&'a Judge],
+        file: &Path,
+        scratch: &Path,
+    ) -> Result<Vec<(&'a Judge, Result<Verdict>)>> {
+        // Some judges run in other folders.
+        let file = file.canonicalize().with_context(|| format!("there is no file {}", file.display()))?;
+        let next = AtomicUsize::new(0);
+        let work = || {
+            let mut said = Vec::new();
+            while let Some(judge) = judges.get(next.fetch_add(1, Ordering::Relaxed)) {
+                let begun = Instant::now();
+                let verdict = (judge.ask)(&file, scratch);
+                said.push((*judge, verdict, begun.elapsed()));
+            }
+            said
+        };
+        let mut said = thread::scope(|scope| {
+            let second = scope.spawn(work);
+            let mut said = work();
+            said.extend(second.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)));
+            said
+        });
+        said.sort_by_key(|(judge, ..)| judges.iter().position(|asked| asked.name == judge.name));
+        for (judge, _, time) in &said {
+            let (count, total) = self.0.entry(judge.name).or_default();
+            *count += 1;
+            *total += *time;
+        }
+        Ok(said.into_iter().map(|(judge, verdict, _)| (judge, verdict)).collect())
+    }
+
+    fn asked(&self) -> usize {
+        self.0.values().map(|(count, _)| count).sum()
+    }
+
+    fn show(&self) {
+        let each = self.0.iter().map(|(name, (count, time))| format!("{name} {count} in {:.1} s", time.as_secs_f64()));
+        println!("asked: {}", each.collect::<Vec<_>>().join(", "));
+    }
+}
+
+/// A script of `xtask/judges/roads/`, run by one of the judges' Pythons.
+fn python_script(python: &Path, script: &str, args: &[&Path]) -> Result<Verdict> {
+    let mut command = Command::new(python);
+    // Nothing that Python compiles is left beside the scripts.
+    command.arg("-B").arg(tree::root().join("xtask/judges/roads").join(script)).args(args);
+    Verdict::of_script(&process::capture_within(&mut command, verdict::PATIENCE)?)
+}
