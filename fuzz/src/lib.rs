@@ -1,10 +1,11 @@
 //! What the targets have in common.
 
-use fairpath_curve::{Segment, Spline};
+use fairpath_curve::{Point, Segment, Spline};
 use fairpath_fit::Stroke;
 use fairpath_io::{
-    ReadOptions, SplineFormat, StrokeFormat, TemplateOptions, WriteOptions, encode_splines, encode_strokes,
-    encode_templates, read_splines_from, read_strokes_from, read_templates_from,
+    RawLayout, RawSample, ReadOptions, SplineFormat, StrokeFormat, TemplateOptions, TerrainFormat, TerrainOptions,
+    WriteOptions, encode_splines, encode_strokes, encode_templates, longitude_latitude, read_splines_from,
+    read_strokes_from, read_templates_from, read_terrain_from,
 };
 use fairpath_sketch::{Answer, Job, run, run_encoded_job};
 
@@ -93,4 +94,30 @@ pub fn templates(bytes: &[u8]) {
     let back = read_templates_from(&json[..], "fuzz", &options).expect("our own JSON is read");
     // A set without a name is called like its file.
     assert_eq!(back.set, file.set);
+}
+
+/// Any bytes as a terrain: what its content tells, or, behind a first byte that says so, what could not be told. Read or refused; what was read is finite, within
+/// the limits and somewhere on the globe, if it says where.
+///
+/// # Panics
+/// When it is not.
+pub fn terrain(bytes: &[u8]) {
+    let mut options = TerrainOptions::default();
+    options.limits.max_terrain_samples = 100_000;
+    options.limits.max_bytes = 1 << 20;
+    options.spacing_m = Some(10.0);
+    options.height_range_m = Some([0.0, 100.0]);
+    options.raw = Some(RawLayout { columns: 4, rows: 3, sample: RawSample::F32, big_endian: false });
+    let (format, bytes) = match bytes {
+        [b'h', rest @ ..] => (Some(TerrainFormat::Hgt), rest),
+        [b'r', rest @ ..] => (Some(TerrainFormat::Raw), rest),
+        _ => (None, bytes),
+    };
+    let Ok(file) = read_terrain_from(bytes, "N42E001", format, &options) else { return };
+    let samples = file.field.samples();
+    assert!(samples.len() as u64 <= options.limits.max_terrain_samples);
+    assert!((0..samples.len()).all(|i| samples.get(i).is_finite()));
+    if let Some(Ok(place)) = file.georeference.map(|reference| longitude_latitude(&reference, Point::ZERO)) {
+        assert!(place.iter().all(|degrees| degrees.is_finite()));
+    }
 }

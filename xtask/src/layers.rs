@@ -39,7 +39,11 @@ const LAYERS: &[Layer] = &[
         workspace: &["fairpath-curve", "fairpath-fit", "fairpath-shape"],
         outside: Some(&["clarabel", "libm", "rstar", "schemars", "serde", "thiserror"]),
     },
-    Layer { name: "fairpath-io", workspace: &["fairpath-curve", "fairpath-fit", "fairpath-shape"], outside: None },
+    Layer {
+        name: "fairpath-io",
+        workspace: &["fairpath-curve", "fairpath-fit", "fairpath-shape", "fairpath-drive"],
+        outside: None,
+    },
     Layer {
         name: "fairpath-render",
         // Files and the fitter are for the pictures of its examples.
@@ -53,7 +57,7 @@ const LAYERS: &[Layer] = &[
     },
     Layer {
         name: "fairpath",
-        workspace: &["fairpath-curve", "fairpath-fit", "fairpath-shape", "fairpath-io", "fairpath-sketch"],
+        workspace: &["fairpath-curve", "fairpath-fit", "fairpath-shape", "fairpath-drive", "fairpath-io", "fairpath-sketch"],
         outside: None,
     },
     Layer {

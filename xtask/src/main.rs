@@ -6,6 +6,7 @@ mod evaluate;
 mod fuzz;
 mod generate;
 mod growth;
+mod judge_roads;
 mod judge_web;
 mod judge_window;
 mod judges;
@@ -88,6 +89,14 @@ enum Chore {
     },
     /// Check who depends on whom.
     Layers,
+    /// Judge files of roads by outside programs: OpenDRIVE (.xodr), LandXML (.xml), GeoJSON (.geojson) and glTF (.glb).
+    JudgeRoads {
+        /// The files.
+        files: Vec<PathBuf>,
+        /// First let the judges look at good and at damaged files, to see what their word is worth.
+        #[arg(long)]
+        self_test: bool,
+    },
     /// Drive the application's page in a browser, alone of all judges.
     JudgeWeb {
         /// The page for visitors instead of that for tests, which is sooner built.
@@ -163,6 +172,7 @@ fn done(chore: Chore) -> Result<()> {
         Chore::Fuzz { seconds } => fuzz::run(seconds),
         Chore::Generate { check } => generate::run(check),
         Chore::Layers => layers::run().map(|note| println!("{note}")),
+        Chore::JudgeRoads { files, self_test } => judge_roads::run(&files, self_test),
         Chore::JudgeWeb { release } => test::judge_web(if release { web::Kind::Release } else { web::Kind::Quick }),
         Chore::JudgeWindow => test::judge_window(),
         Chore::Session { on_screen, strokes } => session::run(on_screen, strokes),

@@ -4,7 +4,7 @@ use anyhow::{Result, bail};
 
 use crate::process::{cargo, run as run_command};
 use crate::steps::{Outcome, Steps};
-use crate::{evaluate, generate, judge_web, judge_window, judges, layers, process, rectilinear, tools, tree, web};
+use crate::{evaluate, generate, judge_roads, judge_web, judge_window, judges, layers, process, rectilinear, tools, tree, web};
 
 /// Runs everything that can tell whether the project is sound.
 pub(crate) fn run() -> Result<()> {
@@ -54,6 +54,8 @@ fn add_judges(steps: &mut Steps) {
     steps.step("judge: SVG", judges::svg);
     steps.step("judge: glTF", judges::gltf);
     steps.step("judge: page", judges::page);
+    steps.step("judges of roads", judge_roads::self_test);
+    steps.step("judge: roads", judge_roads::examples);
     steps.step("judge: web", || judge_web::step(web::Kind::Quick));
     steps.step("judge: window", judge_window::step);
 }

@@ -1,14 +1,12 @@
 //! What the judges need, installed where it is missing: packages of Python and Node into `cache/`, system packages if we may.
 
 use std::fs;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use anyhow::{Context, Result, bail};
 
 use crate::{process, tree};
-
-const REQUIREMENTS: &str = include_str!("../judges/requirements.txt");
 
 /// Fails with a remedy where a part of the toolchain is missing.
 pub(crate) fn components() -> Result<String> {
@@ -24,29 +22,104 @@ pub(crate) fn components() -> Result<String> {
 
 /// The Python that runs the judges, in a virtual environment of its own with pinned packages.
 pub(crate) fn python() -> Result<PathBuf> {
-    let folder = tree::cache().join("judges");
-    let python = folder.join(if cfg!(windows) { "Scripts/python.exe" } else { "bin/python" });
-    let stamp = folder.join("requirements.txt");
-    // The stamp is written last, so a broken installation is never taken for a good one.
-    if python.exists() && fs::read_to_string(&stamp).is_ok_and(|text| text == REQUIREMENTS) {
+    environment("judges", "requirements.txt", Path::new("python3"))
+}
+
+/// The Python of those judges of roads that run in any, with SUMO's programs beside it.
+pub(crate) fn roads_python() -> Result<PathBuf> {
+    environment("judges-roads", "roads/requirements.txt", Path::new("python3"))
+}
+
+/// The Python of those judges of roads that are built for 3.10.
+pub(crate) fn roads_python_3_10() -> Result<PathBuf> {
+    let requirements = "roads/requirements-3.10.txt";
+    // Known without a search once it is there.
+    match installed("judges-roads-3.10", requirements)? {
+        Some(python) => Ok(python),
+        None => environment("judges-roads-3.10", requirements, &python_3_10()?),
+    }
+}
+
+/// A virtual environment in `cache/` with the packages that a file of `xtask/judges/` asks for: its Python.
+fn environment(name: &str, requirements: &str, base: &Path) -> Result<PathBuf> {
+    if let Some(python) = installed(name, requirements)? {
         return Ok(python);
     }
     fs::create_dir_all(tree::cache()).context("cannot make cache/")?;
-    make_venv(&folder)?;
-    let wanted = tree::root().join("xtask/judges/requirements.txt");
-    process::run(Command::new(&python).args(["-m", "pip", "install", "--quiet", "--requirement"]).arg(wanted))
-        .context("cannot install the judges' Python packages")?;
-    fs::write(&stamp, REQUIREMENTS).with_context(|| format!("cannot write {}", stamp.display()))?;
+    let folder = tree::cache().join(name);
+    make_venv(&folder, base)?;
+    let wanted = tree::root().join("xtask/judges").join(requirements);
+    let python = python_in(&folder);
+    process::run(Command::new(&python).args(["-m", "pip", "install", "--quiet", "--requirement"]).arg(&wanted))
+        .with_context(|| format!("cannot install the Python packages of {}", wanted.display()))?;
+    // The stamp is written last, so a broken installation is never taken for a good one.
+    let stamp = folder.join("requirements.txt");
+    fs::copy(&wanted, &stamp).with_context(|| format!("cannot write {}", stamp.display()))?;
     Ok(python)
 }
 
-fn make_venv(folder: &PathBuf) -> Result<()> {
-    let make = || process::run(Command::new("python3").args(["-m", "venv", "--clear"]).arg(folder));
-    if process::exists("python3") && make().is_ok() {
+/// The Python of an environment that has just what a file asks for.
+fn installed(name: &str, requirements: &str) -> Result<Option<PathBuf>> {
+    let folder = tree::cache().join(name);
+    let wanted = tree::root().join("xtask/judges").join(requirements);
+    let wanted = fs::read_to_string(&wanted).with_context(|| format!("cannot read {}", wanted.display()))?;
+    let is_there = fs::read_to_string(folder.join("requirements.txt")).is_ok_and(|text| text == wanted);
+    let python = python_in(&folder);
+    Ok((is_there && python.exists()).then_some(python))
+}
+
+fn python_in(environment: &Path) -> PathBuf {
+    environment.join(if cfg!(windows) { "Scripts/python.exe" } else { "bin/python" })
+}
+
+fn make_venv(folder: &Path, base: &Path) -> Result<()> {
+    let make = || process::run(Command::new(base).args(["-m", "venv", "--clear"]).arg(folder));
+    if process::exists(base) && make().is_ok() {
         return Ok(());
     }
-    apt("python3-venv").context("`python3 -m venv` does not work here")?;
+    apt("python3-venv").with_context(|| format!("`{} -m venv` does not work here", base.display()))?;
     make()
+}
+
+/// A Python 3.10: one that is here, be it among those of pyenv, or else one that uv fetches into `cache/`.
+fn python_3_10() -> Result<PathBuf> {
+    let is_it = |python: &Path| {
+        let ran = process::capture(Command::new(python).args(["-c", "import sys; print(sys.version_info[:2])"]));
+        ran.is_ok_and(|ran| ran.code == Some(0) && ran.text.trim() == "(3, 10)")
+    };
+    let pyenv = std::env::var_os("PYENV_ROOT").map(PathBuf::from);
+    let pyenv = pyenv.or_else(|| std::env::home_dir().map(|home| home.join(".pyenv")));
+    let mut candidates = vec![PathBuf::from("python3.10")];
+    // In the order of their names, so that the same one is taken every time.
+    let versions = pyenv.and_then(|root| fs::read_dir(root.join("versions")).ok());
+    let mut versions: Vec<PathBuf> = versions.into_iter().flatten().flatten().map(|entry| entry.path()).collect();
+    versions.sort();
+    candidates.extend(versions.into_iter().map(|version| version.join("bin/python3.10")));
+    if let Some(python) = candidates.into_iter().find(|python| is_it(python)) {
+        return Ok(python);
+    }
+    let uv = environment("uv", "roads/requirements-uv.txt", Path::new("python3"))?.with_file_name("uv");
+    let run_uv = |args: &[&str]| {
+        let mut command = Command::new(&uv);
+        command.args(["python", args[0], "--managed-python"]).args(&args[1..]).arg("3.10");
+        process::capture(command.env("UV_PYTHON_INSTALL_DIR", tree::cache().join("python")))
+    };
+    let (install, find) = (run_uv(&["install", "--no-bin"])?, run_uv(&["find"])?);
+    let python = PathBuf::from(find.text.trim());
+    if !is_it(&python) {
+        bail!("no Python 3.10 is here, and uv could not fetch one; install it and run this again:\n{}", install.text);
+    }
+    Ok(python)
+}
+
+/// Makes sure that `xmllint` is here, if it can be had.
+pub(crate) fn xmllint() -> Result<()> {
+    if process::exists("xmllint") { Ok(()) } else { apt("libxml2-utils") }
+}
+
+/// Makes sure that `ogrinfo` is here, if it can be had.
+pub(crate) fn ogrinfo() -> Result<()> {
+    if process::exists("ogrinfo") { Ok(()) } else { apt("gdal-bin") }
 }
 
 /// Makes sure that `rsvg-convert` is here, if it can be had.

@@ -1,4 +1,4 @@
-//! Readers and writers of strokes and clothoid splines, writers of surfaces, and pictures of all.
+//! Readers and writers of strokes and clothoid splines, readers of terrains, writers of surfaces, and pictures of all.
 //!
 //! | task | use |
 //! | --- | --- |
@@ -12,6 +12,8 @@
 //! | compare methods on the same strokes, as a page of HTML | [`Comparison`] |
 //! | read edits of splines (JSON) | [`read_edits`], [`read_edits_from`] |
 //! | write surfaces (glTF, OBJ, PNG) | [`write_surfaces`], [`encode_surfaces`] |
+//! | read terrains (GeoTIFF, SRTM, PNG, ESRI ASCII grid, raw; in ZIP archives too) | [`read_terrain`], [`read_terrain_from`] |
+//! | tell where on the globe a place of a terrain lies, and back | [`Projector`], [`longitude_latitude`], [`point_at`] |
 //! | convert | read splines and write them |
 //! | write any file whole or not at all | [`write_whole`] |
 //! | bound what a hostile file may cost | [`Limits`] in [`ReadOptions`] |
@@ -41,10 +43,12 @@
 mod atomic;
 mod comparison;
 mod drawable;
+mod drive;
 mod drawn_spline;
 mod edits;
 mod error;
 mod geodetic;
+mod gltf;
 mod input;
 mod limits;
 mod mesh_gltf;
@@ -69,15 +73,20 @@ mod surfaces;
 mod svg_geometry;
 mod templates;
 mod templates_json;
+mod terrain;
 mod unit;
 mod xml;
 
 pub use atomic::write_whole;
 pub use comparison::{ComparedMethod, Comparison, MethodSummary};
+pub use drive::{
+    DriveExport, DriveProject, DriveScript, ExportFormat, PathSummary, ScriptCommand, TerrainFolder, encode_drive,
+    encode_moments, encode_project, is_project, read_drive_script, read_drive_script_from, read_project, summaries,
+};
 pub use edits::{Edit, Through, read_edits, read_edits_from};
 pub use error::Error;
 pub use limits::{Limits, ReadOptions};
-pub use schema::{edits_schema, spline_schema, strokes_schema, templates_schema};
+pub use schema::{drive_script_schema, edits_schema, spline_schema, strokes_schema, templates_schema};
 pub use spline_dxf::{DxfEntities, DxfOptions};
 pub use spline_file::{Failure, Milliseconds, SplineEntry, SplineFile, SplineReport, UsedPiece, UsedTemplates};
 pub use splines::{
@@ -89,5 +98,9 @@ pub use surfaces::{SurfaceEntry, SurfaceFile, SurfaceFormat, encode_surfaces, wr
 pub use templates::{
     SHIPPED_TEMPLATES, TemplateFile, TemplateOptions, encode_templates, read_templates, read_templates_from,
     shipped_templates, write_templates,
+};
+pub use terrain::{
+    ProjectionError, Projector, RawLayout, RawSample, TerrainFile, TerrainFormat, TerrainOptions, longitude_latitude,
+    point_at, read_terrain, read_terrain_from,
 };
 pub use unit::{Unit, YAxis};

@@ -21,6 +21,8 @@ pub struct Limits {
     pub max_nodes: u64,
     /// Deepest nesting of SVG elements, references by `use` included. Default 256.
     pub max_depth: u64,
+    /// Most samples of a terrain, before and after it is projected. Default 2²⁷, 512 MiB in single precision: ten sheets of SRTM at 1″.
+    pub max_terrain_samples: u64,
 }
 
 impl Default for Limits {
@@ -33,6 +35,7 @@ impl Default for Limits {
             max_templates: 1000,
             max_nodes: 4_000_000,
             max_depth: 256,
+            max_terrain_samples: 1 << 27,
         }
     }
 }

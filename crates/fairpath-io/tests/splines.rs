@@ -259,6 +259,7 @@ fn checked_in_schemas_are_those_of_the_code() {
         ("fairpath-spline-1", spline_schema()),
         ("fairpath-edits-1", edits_schema()),
         ("fairpath-templates-1", templates_schema()),
+        ("fairpath-drive-script-1", drive_script_schema()),
     ] {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("schemas/{name}.schema.json"));
         if std::env::var_os("UPDATE_SCHEMAS").is_some() {

@@ -345,6 +345,8 @@ pub enum DriveVerb {
     Run(DriveRunArgs),
     /// List what breaks the rules of design in a project
     Check(DriveCheckArgs),
+    /// Drive along a path: where the vehicle is, how it heads and how fast it is, over time, as CSV
+    Play(DrivePlayArgs),
 }
 
 /// Arguments of `fairpath drive run`.
@@ -380,6 +382,56 @@ pub struct DriveCheckArgs {
     /// End with 1 if a rule is broken
     #[arg(long)]
     pub strict: bool,
+}
+
+/// Arguments of `fairpath drive play`.
+#[derive(Args, Debug)]
+#[command(after_help = EXIT_CODES)]
+pub struct DrivePlayArgs {
+    /// The project, or a script
+    #[arg(value_name = "PROJECT")]
+    pub project: PathBuf,
+
+    /// The name of the path
+    #[arg(long, value_name = "NAME")]
+    pub path: String,
+
+    /// Where the drive begins, metres from the path's start; a drive from a greater station to a lesser one goes back
+    #[arg(long, value_name = "M", default_value_t = 0.0)]
+    pub from: f64,
+
+    /// Where it ends; by default at the path's end
+    #[arg(long, value_name = "M")]
+    pub to: Option<f64>,
+
+    /// At intersections at the path's end, go on along the straightest way
+    #[arg(long)]
+    pub on: bool,
+
+    /// Seconds from one row to the next
+    #[arg(long, value_name = "S", default_value_t = 0.1)]
+    pub step: f64,
+
+    /// Also tell where this camera stands and what it looks at
+    #[arg(long, value_name = "CAMERA")]
+    pub camera: Option<CameraName>,
+
+    /// Where the table goes; standard output by default
+    #[arg(short, long, value_name = "FILE", default_value = "-")]
+    pub output: PathBuf,
+}
+
+/// From where a drive is seen.
+#[derive(ValueEnum, Clone, Copy, Debug, PartialEq, Eq)]
+pub enum CameraName {
+    /// Through the driver's eyes
+    Driver,
+    /// From behind and a little above
+    Chase,
+    /// From above
+    Aerial,
+    /// From the left side
+    Side,
 }
 
 /// The formats that curves are written in.

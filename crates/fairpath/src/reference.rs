@@ -45,7 +45,11 @@ fn command_line() -> String {
     section("fairpath", command.render_long_help().to_string());
     for verb in command.get_subcommands_mut() {
         if verb.get_name() != "help" {
-            section(&format!("fairpath {}", verb.get_name()), verb.render_long_help().to_string());
+            let name = format!("fairpath {}", verb.get_name());
+            section(&name, verb.render_long_help().to_string());
+            for inner in verb.get_subcommands_mut().filter(|inner| inner.get_name() != "help") {
+                section(&format!("{name} {}", inner.get_name()), inner.render_long_help().to_string());
+            }
         }
     }
     text

@@ -46,6 +46,43 @@ const JUDGES: [Judge; 10] = [
     Judge { name: "gltf", extension: "glb", ask: outlines::gltf },
 ];
 
+/// What the program writes of its example networks, judged; the judges themselves first.
+pub(crate) fn examples() -> Result<Outcome> {
+    let folder = tree::scratch("judge-roads")?.join("examples");
+    std::fs::create_dir_all(&folder).with_context(|| format!("{} cannot be made", folder.display()))?;
+    let mut files = Vec::new();
+    for script in scripts()? {
+        let stem = script.file_stem().context("a script has a name")?.to_string_lossy().into_owned();
+        let text = std::fs::read_to_string(&script).with_context(|| format!("cannot read {}", script.display()))?;
+        let global = !text.contains("\"synthetic\"");
+        let mut command = Command::new(tree::fairpath()?);
+        command.arg("drive").arg("run").arg(&script);
+        for extension in ["xodr", "xml", "geojson", "glb"] {
+            // What nobody surveyed lies nowhere on the globe.
+            if extension != "geojson" || global {
+                let file = folder.join(format!("{stem}.{extension}"));
+                command.arg("--export").arg(&file);
+                files.push(file);
+            }
+        }
+        process::run(&mut command)?;
+    }
+    judge(&files)
+}
+
+/// The example networks.
+fn scripts() -> Result<Vec<PathBuf>> {
+    let folder = tree::root().join("examples/drive");
+    let entries = std::fs::read_dir(&folder).with_context(|| format!("cannot read {}", folder.display()))?;
+    let mut scripts: Vec<PathBuf> = entries.filter_map(|e| e.ok()).map(|e| e.path()).collect();
+    scripts.retain(|path| path.extension().is_some_and(|e| e == "json"));
+    scripts.sort();
+    if scripts.is_empty() {
+        bail!("{} holds no script", folder.display());
+    }
+    Ok(scripts)
+}
+
 /// Judges files, and first the judges themselves where that is wished.
 pub(crate) fn run(files: &[PathBuf], with_self_test: bool) -> Result<()> {
     if files.is_empty() && !with_self_test {

@@ -23,7 +23,7 @@ pub struct PathResult {
     /// Its bridges and tunnels, in order.
     pub structures: Vec<Structure>,
     /// Its cross-sections, in order.
-    pub sections: Vec<CrossSection>,
+    pub sections: Arc<Vec<CrossSection>>,
     /// The elevation that it would have alone.
     alone: Arc<Profile>,
     /// Stations of its crossings and the heights there, m.
@@ -33,7 +33,7 @@ pub struct PathResult {
     /// Its crossings, for which it has bridges.
     crossings: Vec<Crossing>,
     /// What its corridor asks of the ground.
-    hits: Hits,
+    hits: Arc<Hits>,
 }
 
 /// Crossings of each pair of paths that has any.
@@ -78,7 +78,13 @@ pub(super) fn derive(before: Option<(&State, &Results)>, state: &State, terrain:
     let before = before.filter(|(old, _)| old.terrain.as_ref().is_some_and(|t| is_same_terrain(t, terrain)));
     let old_path = |id: PathId| before.and_then(|(_, results)| results.path(id));
     let is_old = |path: &Arc<Path>| old_path(path.id).is_some_and(|old| Arc::ptr_eq(&old.path, path));
-    let pairs = pairs(before.map(|(_, r)| &r.pairs), state, is_old);
+    // A path that merely got another speed, say, crosses others where it did.
+    let same_course = |path: &Arc<Path>| {
+        old_path(path.id).is_some_and(|old| {
+            Arc::ptr_eq(&old.path.plan, &path.plan) && Arc::ptr_eq(&old.path.section, &path.section)
+        })
+    };
+    let pairs = pairs(before.map(|(_, r)| &r.pairs), state, same_course);
     let crossings = decided(&pairs, state);
     // Settings reach every path; a region of soil reaches those that lie on it, and telling which would cost more than it saves.
     let same_ground =
@@ -87,7 +93,9 @@ pub(super) fn derive(before: Option<(&State, &Results)>, state: &State, terrain:
         .paths
         .iter()
         .map(|path| match old_path(path.id) {
-            Some(old) if is_old(path) => old.alone.clone(),
+            Some(old) if same_course(path) && old.path.heights == path.heights && old.path.drawn == path.drawn => {
+                old.alone.clone()
+            }
             _ => Arc::new(alone(path, &terrain.field, terrain.water_m)),
         })
         .collect();
@@ -110,11 +118,11 @@ pub(super) fn derive(before: Option<(&State, &Results)>, state: &State, terrain:
     for (i, path) in state.paths.iter().enumerate() {
         let old = old_path(path.id);
         let elevation = &elevations[i];
-        let same_heights = old.is_some_and(|old| is_old(path) && old.profile == elevation.profile);
+        let same_heights = old.is_some_and(|old| same_course(path) && old.profile == elevation.profile);
         let as_before = |old: &&Arc<PathResult>| {
             old.crossings == crossings_of[i] && old.wanted == elevation.wanted && old.infeasible == elevation.infeasible
         };
-        if let Some(old) = old.filter(|old| same_heights && same_ground && as_before(old)) {
+        if let Some(old) = old.filter(|old| is_old(path) && same_heights && same_ground && as_before(old)) {
             paths.push(old.clone());
             continue;
         }
@@ -134,6 +142,8 @@ pub(super) fn derive(before: Option<(&State, &Results)>, state: &State, terrain:
         );
         let result = match old {
             Some(old) if same_heights && same_ground && old.structures == structures => PathResult {
+                path: path.clone(),
+                alone: alone_of[i].clone(),
                 crossings: crossings_of[i].clone(),
                 wanted: elevation.wanted.clone(),
                 infeasible: elevation.infeasible.clone(),
@@ -142,7 +152,8 @@ pub(super) fn derive(before: Option<(&State, &Results)>, state: &State, terrain:
             _ => {
                 let earthwork = &state.settings.earthwork;
                 let sections = cross_sections(path, &profile, &structures, &terrain.field, &state.soils, earthwork);
-                let hits = hits(&sections, path.section.bed_m, earthwork, old_ground.grid());
+                let sections = Arc::new(sections);
+                let hits = Arc::new(hits(&sections, path.section.bed_m, earthwork, old_ground.grid()));
                 let tiles = old.into_iter().flat_map(|old| old.hits.keys()).chain(hits.keys());
                 dirty.extend(tiles.copied());
                 PathResult {
@@ -165,7 +176,7 @@ pub(super) fn derive(before: Option<(&State, &Results)>, state: &State, terrain:
     let ground = if dirty.is_empty() {
         old_ground.clone()
     } else {
-        let corridors: Vec<&Hits> = paths.iter().map(|p| &p.hits).collect();
+        let corridors: Vec<&Hits> = paths.iter().map(|p| p.hits.as_ref()).collect();
         old_ground.reshaped(&dirty, &corridors)
     };
     let junctions = intersections(before.map(|(_, r)| r), state, &paths, &crossings);
@@ -240,7 +251,7 @@ fn planted(
             }
         }
     }
-    let corridors: Vec<&Hits> = paths.iter().map(|p| &p.hits).collect();
+    let corridors: Vec<&Hits> = paths.iter().map(|p| p.hits.as_ref()).collect();
     for tile in which {
         // Most paths are far away.
         let near: Vec<&Hits> = corridors.iter().copied().filter(|hits| is_near(hits, tile)).collect();
@@ -291,9 +302,9 @@ fn is_same_terrain(a: &LaidTerrain, b: &LaidTerrain) -> bool {
     Arc::ptr_eq(&a.field, &b.field) && a.water_m == b.water_m
 }
 
-/// Crossings of all pairs; those of two paths that are as they were are kept.
-fn pairs(before: Option<&Pairs>, state: &State, is_old: impl Fn(&Arc<Path>) -> bool) -> Pairs {
-    let fresh: Vec<bool> = state.paths.iter().map(|p| !is_old(p)).collect();
+/// Crossings of all pairs; those of two paths that run as they did are kept.
+fn pairs(before: Option<&Pairs>, state: &State, same_course: impl Fn(&Arc<Path>) -> bool) -> Pairs {
+    let fresh: Vec<bool> = state.paths.iter().map(|p| !same_course(p)).collect();
     let index = |id: PathId| state.paths.binary_search_by_key(&id, |p| p.id).ok();
     let mut pairs = Pairs::new();
     for (ids, crossings) in before.into_iter().flatten() {

@@ -3,7 +3,7 @@
 use super::contact::{Crossing, Meeting, PathPlace};
 use super::path::{HeightMode, Path, PathId};
 use crate::heights::{CrossingHeights, HeightError, HeightPoint, Over, PathPoints};
-use crate::profile::{Knot, Profile};
+use crate::profile::{Knot, Profile, ProfileError};
 use crate::smoothing::smoothed;
 use crate::terrain::Heightfield;
 use std::f64::consts::TAU;
@@ -13,6 +13,9 @@ const STEP_M: f64 = 5.0;
 
 /// Waves of the ground of this length are halved in the profile of a path, m for each km/h: at 60 km/h those of 150 m.
 const WAVE_M_PER_KMH: f64 = 2.5;
+
+/// No longer waves are halved to make a path less steep, m: rather it stays steep, and the check of the design says so.
+const LONGEST_WAVE_M: f64 = 1000.0;
 
 /// A path over water lies this much above it, m.
 pub(super) const FREEBOARD_M: f64 = 2.0;
@@ -46,14 +49,25 @@ pub(crate) fn alone(path: &Path, ground: &Heightfield, water_m: Option<f64>) -> 
         .map(|i| (i as f64 - around as f64) * step)
         .map(|station| [station, height(station)])
         .collect();
-    let profile = if path.heights == HeightMode::Draped {
-        Profile::catmull_rom(&points)
-    } else {
-        let stiffness = libm::pow(wave / TAU, 4.0) / step;
-        smoothed(&points, &vec![1.0; points.len()], stiffness)
+    let whole = |profile: Result<Profile, ProfileError>| {
+        let profile = profile.expect("stations ascend and heights are finite");
+        if closed { closed_up(&profile, length) } else { ends_exactly(&profile, length) }
     };
-    let profile = profile.expect("stations ascend and heights are finite");
-    let profile = if closed { closed_up(&profile, length) } else { ends_exactly(&profile, length) };
+    let profile = if path.heights == HeightMode::Draped {
+        whole(Profile::catmull_rom(&points))
+    } else {
+        let weights = vec![1.0; points.len()];
+        let fair = |wave: f64| whole(smoothed(&points, &weights, libm::pow(wave / TAU, 4.0) / step));
+        let too_steep = |profile: &Profile| profile.steepest([0.0, length]).1.abs() > path.section.max_grade;
+        // What is still too steep is made fairer, as long as that helps without leaving the ground altogether.
+        let mut wave = wave;
+        let mut profile = fair(wave);
+        while too_steep(&profile) && wave < LONGEST_WAVE_M.min(length) {
+            wave *= 1.5;
+            profile = fair(wave);
+        }
+        profile
+    };
     path.drawn.iter().fold(profile, |profile, drawn| {
         let part = drawn_profile(&drawn.points_m);
         let transition = TRANSITION_M_PER_KMH * path.section.speed_kmh;

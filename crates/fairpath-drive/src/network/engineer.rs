@@ -71,10 +71,14 @@ pub(crate) fn engineered(
     Ok(number.into_iter().map(|n| n.and_then(|_| found.next())).collect())
 }
 
+/// A clearance over or under a path that is as it is holds this far beside the crossing, m.
+const AROUND_M: f64 = 1.0;
+
 /// A road that meets, or passes over or under, a path that is not engineered.
 fn held(road: &mut EngineeredRoad, station_m: f64, height_m: f64, meeting: Meeting, separation_m: f64) {
     let at = station_m.clamp(0.0, road.length_m);
-    let bound = |lowest_m, highest_m| HeightBound { from_m: at, to_m: at, lowest_m, highest_m };
+    let (from_m, to_m) = ((at - AROUND_M).max(0.0), (at + AROUND_M).min(road.length_m));
+    let bound = |lowest_m, highest_m| HeightBound { from_m, to_m, lowest_m, highest_m };
     match meeting {
         Meeting::Level => road.fixed.push(FixedPoint { station_m: at, height_m, grade: None }),
         Meeting::Over => road.bounds.push(bound(Some(height_m + separation_m), None)),
@@ -124,13 +128,14 @@ fn wet(ground: &[[f64; 2]], water_m: Option<f64>) -> Vec<HeightBound> {
     let Some(water) = water_m else { return Vec::new() };
     let mut bounds: Vec<HeightBound> = Vec::new();
     let mut before = false;
+    let end = ground.last().map_or(0.0, |g| g[0]);
     for [station, z] in ground {
         let wet = *z < water;
         match bounds.last_mut() {
-            Some(last) if wet && before => last.to_m = *station,
+            Some(last) if wet && before => last.to_m = (*station + AROUND_M).min(end),
             _ if wet => bounds.push(HeightBound {
-                from_m: *station,
-                to_m: *station,
+                from_m: (*station - AROUND_M).max(0.0),
+                to_m: (*station + AROUND_M).min(end),
                 lowest_m: Some(water + FREEBOARD_M),
                 highest_m: None,
             }),

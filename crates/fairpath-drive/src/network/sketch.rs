@@ -1,7 +1,7 @@
 //! A stroke on the map as the plan of a path: points in metres come in, a spline of lines, arcs and clothoids goes out (section 3.4.1 of the thesis, which fits in
 //! curvature space; here by shortest paths, with a least radius).
 
-use fairpath_curve::{Point, Spline};
+use fairpath_curve::{Continuity, Point, Spline};
 use fairpath_fit::{Closing, Fit, FitError, FitOptions, OversketchOptions, Stroke, fit};
 
 /// How strokes become plans.
@@ -27,12 +27,24 @@ impl SketchScale {
         }
     }
 
-    /// The plan of a stroke.
+    /// The plan of a stroke: without corners, and with curvature that goes on at every join. Where no such curve keeps to the stroke at its scale, because it bends more sharply
+    /// than it may, coarser scales are tried.
     ///
     /// # Errors
     /// As [`fairpath_fit::fit`].
     pub fn plan(&self, points: &[Point], closed: bool) -> Result<Fit, FitError> {
-        fit(&Stroke::new("path", self.evened(points)), &self.options(closed))
+        let stroke = Stroke::new("path", self.evened(points));
+        let smooth = |fit: &Fit| fit.spline.joins().iter().all(|join| *join >= Continuity::G2);
+        let mut scale = *self;
+        let mut found = fit(&stroke, &scale.options(closed))?;
+        for _ in 0..COARSER_TRIES {
+            if smooth(&found) {
+                break;
+            }
+            scale.pixel_m *= COARSER;
+            found = fit(&stroke, &scale.options(closed))?;
+        }
+        Ok(found)
     }
 
     /// How a stroke is taken that is drawn over a plan.
@@ -64,6 +76,10 @@ impl SketchScale {
         even
     }
 }
+
+/// By how much a scale is coarser that is tried next, and how many are.
+const COARSER: f64 = 1.5;
+const COARSER_TRIES: usize = 5;
 
 /// Points of a stroke lie no further apart than this, px.
 const EVEN_STEP: f64 = 4.0;

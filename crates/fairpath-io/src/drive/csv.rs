@@ -2,7 +2,7 @@
 
 use super::export::DriveExport;
 use crate::error::Error;
-use fairpath_drive::{Carrier, CrossSection, PathResult};
+use fairpath_drive::{CameraTrack, Carrier, CrossSection, Drive, PathResult};
 
 /// Rows are no further apart, m; at joins of the plan and at ends of bridges and tunnels there are rows besides.
 const EVERY_M: f64 = 10.0;
@@ -54,6 +54,43 @@ pub(super) fn write(export: &DriveExport<'_>) -> Result<Vec<u8>, Error> {
         place: "the table of stations".to_owned(),
         problem: e.to_string(),
     })
+}
+
+/// Where a vehicle is over time, with a camera that goes along if one is given.
+///
+/// # Errors
+/// Never for drives that were found; the type is that of other writers.
+pub fn encode_moments(drive: &Drive, camera: Option<CameraTrack>) -> Result<Vec<u8>, Error> {
+    let mut writer = ::csv::Writer::from_writer(Vec::new());
+    let unwritable = |problem: String| Error::Unwritable { format: "CSV", place: "the drive".to_owned(), problem };
+    let mut head = vec![
+        "time_s", "driven_m", "x_m", "y_m", "z_m", "heading_rad", "grade", "curvature_per_m", "speed_m_s",
+    ];
+    if camera.is_some() {
+        head.extend(["eye_x_m", "eye_y_m", "eye_z_m", "target_x_m", "target_y_m", "target_z_m"]);
+    }
+    writer.write_record(&head).map_err(|e| unwritable(e.to_string()))?;
+    for moment in &drive.moments {
+        let [x, y, z] = moment.position;
+        let mut row = vec![
+            moment.time_s,
+            moment.driven_m,
+            x,
+            y,
+            z,
+            moment.heading_rad,
+            moment.grade,
+            moment.curvature_per_m,
+            moment.speed_m_s,
+        ];
+        if let Some(track) = camera {
+            let camera = track.at(moment);
+            row.extend(camera.eye);
+            row.extend(camera.target);
+        }
+        writer.write_record(row.iter().map(f64::to_string)).map_err(|e| unwritable(e.to_string()))?;
+    }
+    writer.into_inner().map_err(|e| unwritable(e.to_string()))
 }
 
 fn stations(path: &PathResult) -> Vec<f64> {

@@ -6,7 +6,7 @@ use crate::limits::ReadOptions;
 use crate::strokes::{StrokeFormat, read_strokes};
 use crate::strokes_geojson;
 use crate::terrain::Projector;
-use fairpath_curve::Point;
+use fairpath_curve::{Point, Vec2};
 use fairpath_drive::{Command, GeoReference, Heightfield, SketchAs};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -18,6 +18,18 @@ use std::path::Path;
 pub struct Import {
     /// The file, beside the script: GeoJSON, put in its place by the terrain's georeference, or any other file of strokes, taken as metres in the terrain's frame.
     pub file: String,
+    /// Only the lines of this name.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub only: Option<String>,
+    /// The name of the path that the first line becomes; else all get names of their layer.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub name: Option<String>,
+    /// Whether the lines close on themselves.
+    #[serde(default)]
+    pub closed: bool,
+    /// By how much lines that are in metres are moved, m.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub offset_m: Option<[f64; 2]>,
     /// The layer on which the lines lie.
     #[serde(default = "road")]
     pub layer: String,
@@ -61,7 +73,13 @@ impl Import {
         let lines = lines(&path, georeference)?;
         let mut commands = Vec::new();
         let mut left_out = 0;
-        for (name, points) in lines {
+        for (name, mut points) in lines {
+            if self.only.as_ref().is_some_and(|only| *only != name) {
+                continue;
+            }
+            if let (Some([x, y]), false) = (self.offset_m, is_global(&path)) {
+                points.iter_mut().for_each(|p| *p += Vec2::new(x, y));
+            }
             let runs = on_terrain(field, &points);
             left_out += usize::from(runs.is_empty());
             for run in runs {
@@ -70,30 +88,36 @@ impl Import {
                     left_out += 1;
                     continue;
                 }
-                commands.push(self.sketch(&name, &run));
+                let name = self.name.clone().filter(|_| commands.is_empty());
+                commands.push(self.sketch(name, &run));
             }
         }
         Ok((commands, left_out))
     }
 
-    fn sketch(&self, _name: &str, points: &[Point]) -> Command {
+    fn sketch(&self, name: Option<String>, points: &[Point]) -> Command {
         Command::Sketch {
             points_m: points.iter().map(|p| [p.x, p.y]).collect(),
             layer: self.layer.clone(),
-            name: None,
+            name,
             section: self.section.clone(),
             sketch_as: SketchAs::New,
-            closed: false,
+            closed: self.closed,
             pixel_m: self.pixel_m,
             min_radius_m: self.min_radius_m,
         }
     }
 }
 
+/// Whether a file's places are longitudes and latitudes.
+fn is_global(path: &Path) -> bool {
+    StrokeFormat::from_path(path) == Some(StrokeFormat::GeoJson)
+}
+
 /// The lines of a file in the terrain's metres, with their names.
 fn lines(path: &Path, georeference: Option<&GeoReference>) -> Result<Vec<(String, Vec<Point>)>, Error> {
     let options = ReadOptions::default();
-    if StrokeFormat::from_path(path) != Some(StrokeFormat::GeoJson) {
+    if !is_global(path) {
         let file = read_strokes(path, &options)?;
         return Ok(file.strokes.into_iter().map(|s| (s.name, s.points)).collect());
     }

@@ -108,8 +108,12 @@ fn parse(text: &str, limits: &Limits) -> Result<DriveScript, Fault> {
     Err(Fault::new(place, problems.join("; ")))
 }
 
-fn one(value: Value, name: Option<&str>) -> Result<ScriptCommand, serde_json::Error> {
+fn one(mut value: Value, name: Option<&str>) -> Result<ScriptCommand, serde_json::Error> {
     if name == Some("import") {
+        // Serde writes the word of a structure but does not read it.
+        if let Some(fields) = value.as_object_mut() {
+            fields.remove("do");
+        }
         serde_json::from_value(value).map(ScriptCommand::Import)
     } else {
         serde_json::from_value(value).map(ScriptCommand::Document)

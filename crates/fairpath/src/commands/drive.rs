@@ -4,14 +4,14 @@ use std::path::Path;
 use std::time::Instant;
 
 use anyhow::{Context, Result, bail};
-use fairpath_drive::{Breach, Command, Document, Results, State};
+use fairpath_drive::{Breach, CameraTrack, Command, Document, Results, State};
 use fairpath_io::{
-    DriveExport, ExportFormat, PathSummary, ReadOptions, ScriptCommand, TerrainFolder, encode_drive, encode_project,
+    DriveExport, ExportFormat, PathSummary, ReadOptions, ScriptCommand, TerrainFolder, encode_drive, encode_moments, encode_project,
     is_project, read_drive_script, read_project, summaries,
 };
 
 use super::Ending;
-use crate::args::{DriveArgs, DriveCheckArgs, DriveRunArgs, DriveVerb};
+use crate::args::{CameraName, DriveArgs, DriveCheckArgs, DrivePlayArgs, DriveRunArgs, DriveVerb};
 use crate::interrupt;
 use crate::output::{Ready, check_place};
 use crate::printer::{Printer, columns};
@@ -20,6 +20,7 @@ pub(crate) fn run(args: &DriveArgs, printer: &mut Printer) -> Result<Ending> {
     match &args.verb {
         DriveVerb::Run(args) => run_script(args, printer),
         DriveVerb::Check(args) => check(args, printer),
+        DriveVerb::Play(args) => play(args, printer),
     }
 }
 
@@ -69,6 +70,29 @@ fn check(args: &DriveCheckArgs, printer: &mut Printer) -> Result<Ending> {
     let head = vec![head.map(str::to_owned).to_vec()];
     printer.result(&if broken { columns(&[head, rows].concat()) } else { "no rule is broken\n".to_owned() })?;
     Ok(if broken && args.strict { Ending::SomeFailed } else { Ending::Done })
+}
+
+fn play(args: &DrivePlayArgs, printer: &mut Printer) -> Result<Ending> {
+    check_place(&args.output)?;
+    interrupt::install();
+    let document = opened(&args.project, false, printer)?;
+    let (state, results) = laid(&document, &args.project)?;
+    let Some(path) = state.path(&args.path) else {
+        let known: Vec<&str> = state.paths.iter().map(|p| p.name.as_str()).collect();
+        bail!("{}: there is no path {:?}; there are {}", args.project.display(), args.path, known.join(", "));
+    };
+    let to = args.to.unwrap_or(path.length_m());
+    let drive = fairpath_drive::drive(results, path.id, [args.from, to], args.on, args.step)?;
+    let track = args.camera.map(|name| match name {
+        CameraName::Driver => CameraTrack::Driver,
+        CameraName::Chase => CameraTrack::Chase,
+        CameraName::Aerial => CameraTrack::Aerial,
+        CameraName::Side => CameraTrack::Side,
+    });
+    let mut ready = Ready::default();
+    ready.add(&args.output, encode_moments(&drive, track)?);
+    ready.write()?;
+    Ok(Ending::Done)
 }
 
 /// The document that a script or a project leads to.

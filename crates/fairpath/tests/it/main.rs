@@ -2,6 +2,7 @@
 
 mod bad_input;
 mod compare;
+mod drive;
 mod editing;
 mod endings;
 mod examples;

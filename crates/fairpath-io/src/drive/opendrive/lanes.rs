@@ -7,8 +7,8 @@ use fairpath_drive::{Lane, Marking, Section};
 /// Width of a line, m.
 const LINE_M: &str = "0.12";
 
-/// Lanes of a cross-section; those of a road that is its own successor are linked to themselves.
-pub(super) fn write(xml: &mut Xml, section: &Section, ring: bool) {
+/// Lanes of a cross-section, linked to those of the same numbers before and after it where the road goes on as another one of its kind.
+pub(super) fn write(xml: &mut Xml, section: &Section, goes_on: [bool; 2]) {
     xml.open("lanes", &[]);
     xml.open("laneSection", &[("s", "0")]);
     let side = |xml: &mut Xml, name: &str, lanes: &[Lane], sign: i64| {
@@ -19,7 +19,7 @@ pub(super) fn write(xml: &mut Xml, section: &Section, ring: bool) {
         // From the left to the right, as one sees them.
         let order: Vec<usize> = if sign > 0 { (0..lanes.len()).rev().collect() } else { (0..lanes.len()).collect() };
         for i in order {
-            lane(xml, &lanes[i], sign * (i as i64 + 1), ring);
+            lane(xml, &lanes[i], sign * (i as i64 + 1), goes_on);
         }
         xml.close(name);
     };
@@ -34,13 +34,14 @@ pub(super) fn write(xml: &mut Xml, section: &Section, ring: bool) {
     xml.close("lanes");
 }
 
-fn lane(xml: &mut Xml, lane: &Lane, id: i64, ring: bool) {
+fn lane(xml: &mut Xml, lane: &Lane, id: i64, goes_on: [bool; 2]) {
     let id = id.to_string();
     xml.open("lane", &[("id", &id), ("type", lane_type(lane.kind)), ("level", "false")]);
-    if ring {
+    if goes_on != [false; 2] {
         xml.open("link", &[]);
-        xml.empty("predecessor", &[("id", &id)]);
-        xml.empty("successor", &[("id", &id)]);
+        for (name, _) in ["predecessor", "successor"].into_iter().zip(goes_on).filter(|end| end.1) {
+            xml.empty(name, &[("id", &id)]);
+        }
         xml.close("link");
     }
     width(xml, [lane.width_m, lane.width_m], 1.0);

@@ -57,12 +57,25 @@ pub(super) fn write_plan(xml: &mut Xml, geometries: &[Segment]) {
     xml.close("planView");
 }
 
-/// The profile of a road, which begins at station 0.
+/// What a cubic may be off where another one goes on for it, by coefficient.
+const SAME_CUBIC: [f64; 4] = [1e-7, 1e-9, 1e-11, 1e-13];
+
+/// The profile of a road, which begins at station 0. A piece that merely goes on as the one before has no record of its own.
 pub(super) fn write_elevation(xml: &mut Xml, profile: &Profile) {
     xml.open("elevationProfile", &[]);
+    let mut written: Option<(f64, [f64; 4])> = None;
     for (i, knot) in profile.knots().iter().enumerate().take(profile.knots().len() - 1) {
-        let [a, b, c, d] = profile.cubic(i).map(number);
-        let s = number(knot.station_m);
+        let cubic = profile.cubic(i);
+        let goes_on = written.is_some_and(|(from, [a, b, c, d])| {
+            let s = knot.station_m - from;
+            let here = [a + s * (b + s * (c + s * d)), b + s * (2.0 * c + 3.0 * d * s), c + 3.0 * d * s, d];
+            here.iter().zip(cubic).zip(SAME_CUBIC).all(|((h, x), most)| (h - x).abs() <= most)
+        });
+        if goes_on {
+            continue;
+        }
+        written = Some((knot.station_m, cubic));
+        let ([a, b, c, d], s) = (cubic.map(number), number(knot.station_m));
         xml.empty("elevation", &[("s", &s), ("a", &a), ("b", &b), ("c", &c), ("d", &d)]);
     }
     xml.close("elevationProfile");

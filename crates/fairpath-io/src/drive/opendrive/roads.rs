@@ -3,7 +3,7 @@
 use crate::drive::xml::{Xml, number};
 use super::{is_road, lanes, objects, plan};
 use crate::drive::export::DriveExport;
-use fairpath_curve::{Segment, Spline};
+use fairpath_curve::Segment;
 use fairpath_drive::{Arm, Knot, PathId, PathResult, Profile, Results};
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -18,10 +18,18 @@ pub(super) struct Road<'a> {
     pub(super) range: [f64; 2],
     pub(super) geometries: Vec<Segment>,
     pub(super) profile: Profile,
-    /// The intersections at its start and at its end, counted from 0.
-    pub(super) junctions: [Option<usize>; 2],
-    /// Whether it is a whole closed path.
-    pub(super) ring: bool,
+    /// What it leads to at its start and at its end.
+    pub(super) leads_to: [LeadsTo; 2],
+}
+
+/// What a road leads to at one of its ends.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum LeadsTo {
+    Nothing,
+    /// An intersection, counted from 0.
+    Junction(usize),
+    /// Another road in the same direction, or itself.
+    Road(u64),
 }
 
 /// All roads between intersections.
@@ -36,42 +44,48 @@ impl<'a> Network<'a> {
         let mut network = Self { roads: Vec::new(), arms: BTreeMap::new() };
         for (index, path) in results.paths.iter().enumerate().filter(|(_, p)| is_road(p)) {
             for (range, ring) in stretches(path, results) {
-                let plan = if ring {
-                    Some(path.path.plan.as_ref().clone())
-                } else {
-                    path.path.plan.subspline(range[0], range[1])
-                };
-                let (Some(plan), Some(profile)) = (plan, profile_of(path, range)) else { continue };
-                network.add(results, path, index, range, ring, &plan, profile);
+                network.add(results, (index, path), range, ring);
             }
         }
         network
     }
 
-    #[expect(clippy::too_many_arguments, reason = "they are the fields of a road")]
-    fn add(
-        &mut self,
-        results: &Results,
-        path: &'a Arc<PathResult>,
-        index: usize,
-        range: [f64; 2],
-        ring: bool,
-        plan: &Spline,
-        profile: Profile,
-    ) {
-        let id = self.roads.len() as u64 + 1;
-        let geometries = plan::geometries(plan);
-        // The start of a road is where it goes out forward, its end where it goes out backward.
-        let mut junctions = [None; 2];
-        if !ring {
-            for (end, forward) in [(0, true), (1, false)] {
-                if let Some((j, a)) = arm_at(results, path.path.id, range[end], forward, path) {
-                    junctions[end] = Some(j);
-                    self.arms.insert((j, a), id);
-                }
-            }
+    /// Adds the road of a stretch; as two roads where it leads from an intersection back to it, since readers take one whose ends meet for broken.
+    fn add(&mut self, results: &Results, (index, path): (usize, &'a Arc<PathResult>), range: [f64; 2], ring: bool) {
+        let id = self.next_id();
+        if ring {
+            self.push((index, path), range, [LeadsTo::Road(id); 2]);
+            return;
         }
-        self.roads.push(Road { id, path, index, range, geometries, profile, junctions, ring });
+        // The start of a road is where it goes out forward, its end where it goes out backward.
+        let arms = [(range[0], true), (range[1], false)]
+            .map(|(station, forward)| arm_at(results, path.path.id, station, forward, path));
+        let leads_to = arms.map(|arm| arm.map_or(LeadsTo::Nothing, |(j, _)| LeadsTo::Junction(j)));
+        let middle = 0.5 * (range[0] + range[1]);
+        let last = match leads_to {
+            [LeadsTo::Junction(a), LeadsTo::Junction(b)] if a == b => {
+                self.push((index, path), [range[0], middle], [leads_to[0], LeadsTo::Road(id + 1)]);
+                self.push((index, path), [middle, range[1]], [LeadsTo::Road(id), leads_to[1]]);
+                id + 1
+            }
+            _ => {
+                self.push((index, path), range, leads_to);
+                id
+            }
+        };
+        for (arm, id) in arms.into_iter().zip([id, last]) {
+            self.arms.extend(arm.map(|arm| (arm, id)));
+        }
+    }
+
+    fn push(&mut self, (index, path): (usize, &'a Arc<PathResult>), range: [f64; 2], leads_to: [LeadsTo; 2]) {
+        let whole = range == [0.0, path.path.length_m()];
+        let plan = if whole { Some(path.path.plan.as_ref().clone()) } else { path.path.plan.subspline(range[0], range[1]) };
+        // Stretches are longer than a millimetre and lie on their path.
+        if let (Some(plan), Some(profile)) = (plan, profile_of(path, range)) {
+            let id = self.next_id();
+            self.roads.push(Road { id, path, index, range, geometries: plan::geometries(&plan), profile, leads_to });
+        }
     }
 
     /// The road that goes out at an arm of an intersection.
@@ -151,29 +165,29 @@ pub(super) fn write(xml: &mut Xml, road: &Road<'_>, network: &Network<'_>, expor
     types(xml, road);
     plan::write_plan(xml, &road.geometries);
     plan::write_elevation(xml, &road.profile);
-    lanes::write(xml, &road.path.path.section, road.ring);
+    let goes_on = road.leads_to.map(|to| matches!(to, LeadsTo::Road(_)));
+    lanes::write(xml, &road.path.path.section, goes_on);
     objects::write_objects(xml, road);
     objects::write_signals(xml, road, &export.results.signs[road.index]);
     xml.close("road");
 }
 
 fn links(xml: &mut Xml, road: &Road<'_>, network: &Network<'_>) {
-    let id = road.id.to_string();
-    if road.ring {
-        xml.open("link", &[]);
-        xml.empty("predecessor", &[("elementType", "road"), ("elementId", &id), ("contactPoint", "end")]);
-        xml.empty("successor", &[("elementType", "road"), ("elementId", &id), ("contactPoint", "start")]);
-        xml.close("link");
-        return;
-    }
-    if road.junctions == [None, None] {
+    if road.leads_to == [LeadsTo::Nothing; 2] {
         return;
     }
     xml.open("link", &[]);
-    for (name, junction) in ["predecessor", "successor"].into_iter().zip(road.junctions) {
-        if let Some(junction) = junction {
-            let id = junction_id(network, junction).to_string();
-            xml.empty(name, &[("elementType", "junction"), ("elementId", &id)]);
+    for (name, contact, to) in [("predecessor", "end", road.leads_to[0]), ("successor", "start", road.leads_to[1])] {
+        match to {
+            LeadsTo::Nothing => {}
+            LeadsTo::Junction(j) => {
+                let id = junction_id(network, j).to_string();
+                xml.empty(name, &[("elementType", "junction"), ("elementId", &id)]);
+            }
+            LeadsTo::Road(id) => {
+                let id = id.to_string();
+                xml.empty(name, &[("elementType", "road"), ("elementId", &id), ("contactPoint", contact)]);
+            }
         }
     }
     xml.close("link");

@@ -1,0 +1,146 @@
+//! Roads on a terrain: scripts, projects, exports, checks and drives.
+
+use super::{Ran, root, run, run_in};
+use std::fs;
+use std::path::Path;
+use tempfile::tempdir;
+
+/// A script in a folder: two roads over hills that cross above each other.
+fn script(folder: &Path) {
+    let text = r#"{"format":"fairpath-drive-script","version":1,"commands":[
+        {"do":"terrain","synthetic":"hills","size":257,"cell_m":4.0,"seed":5},
+        {"do":"sketch","name":"a","points_m":[[100,500],[400,520],[900,480]]},
+        {"do":"sketch","name":"b","points_m":[[500,100],[520,500],[480,900]]},
+        {"do":"crossing","near_m":[520,510],"set":"over","path":"a"},
+        {"do":"foliage","lasso_m":[[400,400],[600,400],[600,600],[400,600]],"density":0.5}]}"#;
+    fs::write(folder.join("roads.json"), text).unwrap();
+}
+
+fn ran(folder: &Path, args: &[&str]) -> Ran {
+    run_in(folder, args)
+}
+
+#[test]
+fn a_script_gives_a_table_a_project_and_every_export() {
+    let folder = tempdir().unwrap();
+    script(folder.path());
+    let exports = ["o.xodr", "o.xml", "o.glb", "o.csv"];
+    let mut args = vec!["drive", "run", "roads.json", "--project", "o.fairpath"];
+    for export in exports {
+        args.extend(["--export", export]);
+    }
+    let table = ran(folder.path(), &args).ended(0);
+    let lines: Vec<&str> = table.text().lines().collect();
+    assert_eq!(lines.len(), 3, "{}", table.text());
+    assert!(lines[0].starts_with("path") && lines[0].contains("max grade %") && lines[0].contains("cut m3"));
+    assert!(lines[1].starts_with("a ") && lines[2].starts_with("b "));
+    for export in exports {
+        assert!(fs::metadata(folder.path().join(export)).unwrap().len() > 1000, "{export}");
+    }
+    // A terrain of nobody's survey lies nowhere on the globe.
+    let refused = ran(folder.path(), &["drive", "run", "roads.json", "--export", "o.geojson"]).ended(2);
+    assert!(refused.err.contains("lies nowhere on the globe"), "{}", refused.err);
+    assert!(!folder.path().join("o.geojson").exists());
+}
+
+#[test]
+fn a_project_opens_to_the_same_bytes() {
+    let folder = tempdir().unwrap();
+    script(folder.path());
+    ran(folder.path(), &["drive", "run", "roads.json", "--project", "a.fairpath"]).ended(0);
+    let again = ran(folder.path(), &["drive", "run", "a.fairpath", "--project", "b.fairpath"]).ended(0);
+    assert_eq!(again.err, "");
+    let bytes = |name: &str| fs::read(folder.path().join(name)).unwrap();
+    assert!(bytes("a.fairpath") == bytes("b.fairpath"));
+    // What was saved with the commands is compared with what follows from them.
+    let changed = String::from_utf8(bytes("a.fairpath")).unwrap().replacen("\"seed\": 5", "\"seed\": 6", 1);
+    fs::write(folder.path().join("c.fairpath"), changed).unwrap();
+    let warned = ran(folder.path(), &["drive", "run", "c.fairpath"]).ended(0);
+    assert!(warned.err.contains("not what was saved"), "{}", warned.err);
+}
+
+#[test]
+fn a_check_names_path_station_value_and_limit() {
+    let folder = tempdir().unwrap();
+    let text = r#"{"format":"fairpath-drive-script","version":1,"commands":[
+        {"do":"terrain","synthetic":"hills","size":129,"cell_m":4.0,"seed":5},
+        {"do":"sketch","name":"bend","points_m":[[100,100],[200,100],[220,110],[225,130],[225,300]],"min_radius_m":15},
+        {"do":"speed","path":"bend","kmh":80}]}"#;
+    fs::write(folder.path().join("bend.json"), text).unwrap();
+    let checked = ran(folder.path(), &["drive", "check", "bend.json"]).ended(0);
+    let radius = checked.text().lines().find(|l| l.contains("radius")).expect("the bend is too tight for 80 km/h");
+    // 80² / 127 (0.08 + 0.14) m.
+    assert!(radius.starts_with("bend") && radius.contains("229.1") && radius.ends_with("m"), "{radius}");
+    ran(folder.path(), &["drive", "check", "bend.json", "--strict"]).ended(1);
+}
+
+#[test]
+fn a_drive_is_told_over_time() {
+    let folder = tempdir().unwrap();
+    script(folder.path());
+    let args = ["drive", "play", "roads.json", "--path", "a", "--step", "0.5", "--camera", "chase"];
+    let driven = ran(folder.path(), &args).ended(0);
+    let rows: Vec<Vec<f64>> = driven
+        .text()
+        .lines()
+        .skip(1)
+        .map(|line| line.split(',').map(|x| x.parse().unwrap()).collect())
+        .collect();
+    assert!(rows.len() > 50 && rows.iter().all(|row| row.len() == 15));
+    for pair in rows.windows(2) {
+        let [a, b] = [&pair[0], &pair[1]];
+        let (time, way) = (b[0] - a[0], b[1] - a[1]);
+        assert!(time > 0.0 && way > 0.0);
+        // No faster than 60 km/h, and no gain or loss beyond what is comfortable.
+        assert!(b[8] <= 60.0 / 3.6 + 1e-9 && (b[8] - a[8]).abs() <= 1.2 * time + 1e-9, "{a:?} {b:?}");
+        assert!((way / time - 0.5 * (a[8] + b[8])).abs() < 0.2, "{a:?} {b:?}");
+    }
+    let wrong = ran(folder.path(), &["drive", "play", "roads.json", "--path", "c"]).ended(2);
+    assert!(wrong.err.contains("there is no path \"c\"; there are a, b"), "{}", wrong.err);
+}
+
+#[test]
+fn bad_scripts_are_refused_by_place_and_nothing_is_written() {
+    let folder = tempdir().unwrap();
+    let head = r#"{"format":"fairpath-drive-script","version":1,"commands":["#;
+    let hills = r#"{"do":"terrain","synthetic":"hills","size":65,"cell_m":8.0}"#;
+    let cases = [
+        (String::new(), "the file is empty"),
+        (r#"{"format":"fairpath-edits","version":1,"commands":[]}"#.to_owned(), "expected \"fairpath-drive-script\""),
+        (format!("{head}]}}"), "it lays no terrain"),
+        (format!("{head}{{\"do\":\"fly\"}}]}}"), "command 1 (fly)"),
+        (format!("{head}{{\"do\":\"sketch\",\"points_m\":[[0,0],[9,9]]}}]}}"), "there is no terrain yet"),
+        (format!("{head}{{\"do\":\"terrain\",\"file\":\"no.tif\"}}]}}"), "no.tif"),
+        (format!("{head}{hills},{{\"do\":\"sketch\",\"points_m\":[[0,0]]}}]}}"), "command 2 (sketch)"),
+        (format!("{head}{hills},{{\"do\":\"sketch\",\"points_m\":[[1e300,0],[1,1]]}}]}}"), "within ±1e9 m"),
+        (format!("{head}{hills},{{\"do\":\"sketch\",\"points_m\":[[5,5],[5,5]]}}]}}"), "becomes no path"),
+        (format!("{head}{hills},{{\"do\":\"speed\",\"path\":\"x\",\"kmh\":50}}]}}"), "there is no path \"x\"; there are none"),
+        (format!("{head}{hills},{hills}]}}"), "there is a terrain already"),
+        (format!("{head}{hills},{{\"do\":\"crossing\",\"near_m\":[9,9],\"set\":\"over\"}}]}}"), "no crossing"),
+        (format!("{head}{hills},{{\"do\":\"foliage\",\"lasso_m\":[[0,0],[9,0],[9,9]],\"density\":7}}]}}"), "density is 7; expected 0 to 1"),
+        (format!("{head}{hills},{{\"do\":\"sketch\",\"section\":\"moat\",\"points_m\":[[9,9],[99,99]]}}]}}"), "two-lane, four-lane"),
+        (head.to_owned(), "cut off"),
+    ];
+    for (text, said) in cases {
+        fs::write(folder.path().join("s.json"), &text).unwrap();
+        let refused = ran(folder.path(), &["drive", "run", "s.json", "--project", "p.fairpath"]).ended(2);
+        assert!(refused.err.contains(said), "{text}: {}", refused.err);
+        assert!(!folder.path().join("p.fairpath").exists());
+    }
+    let refused = ran(folder.path(), &["drive", "run", "s.json", "--export", "a.doc"]).ended(2);
+    assert!(refused.err.contains("xodr, xml, glb, geojson, csv"), "{}", refused.err);
+}
+
+#[test]
+fn the_examples_run_on_real_terrains() {
+    let data = root().join("../shared/data");
+    if !data.is_dir() && std::env::var_os("CI").is_none() {
+        return;
+    }
+    let pass = run(&["drive", "run", "examples/drive/pass-road.json"]).ended(0);
+    let line = pass.text().lines().nth(1).unwrap().to_owned();
+    let cells: Vec<&str> = line.split_whitespace().collect();
+    // The name has two words; the length is that of the road in OpenStreetMap.
+    let length: f64 = cells[2].parse().unwrap();
+    assert!((length - 5490.0).abs() < 60.0, "{line}");
+}
