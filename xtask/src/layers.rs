@@ -57,7 +57,14 @@ const LAYERS: &[Layer] = &[
     },
     Layer {
         name: "fairpath",
-        workspace: &["fairpath-curve", "fairpath-fit", "fairpath-shape", "fairpath-drive", "fairpath-io", "fairpath-sketch"],
+        workspace: &[
+            "fairpath-curve",
+            "fairpath-fit",
+            "fairpath-shape",
+            "fairpath-drive",
+            "fairpath-io",
+            "fairpath-sketch",
+        ],
         outside: None,
     },
     Layer {

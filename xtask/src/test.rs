@@ -4,7 +4,9 @@ use anyhow::{Result, bail};
 
 use crate::process::{cargo, run as run_command};
 use crate::steps::{Outcome, Steps};
-use crate::{evaluate, generate, judge_roads, judge_web, judge_window, judges, layers, process, rectilinear, tools, tree, web};
+use crate::{
+    evaluate, generate, judge_roads, judge_web, judge_window, judges, layers, process, rectilinear, tools, tree, web,
+};
 
 /// Runs everything that can tell whether the project is sound.
 pub(crate) fn run() -> Result<()> {

@@ -87,7 +87,7 @@ pub use along::clothoids_along;
 pub use comb::Tooth;
 pub use fit_source::FitSource;
 pub use hermite_g1::hermite_g1;
-pub use hermite_g2::hermite_g2;
+pub use hermite_g2::{hermite_g2, hermite_g2_with};
 pub use intersect::{Contact, Intersection, Place, SplineIntersection};
 pub use kurbo::{Point, Rect, Vec2};
 pub use moments::{displacement, moments, moments_to_4};

@@ -31,13 +31,13 @@ mod furniture;
 mod ground;
 mod heights;
 mod network;
+mod playback;
 mod profile;
 mod range;
 mod rules;
 mod scene;
 mod section;
 mod smoothing;
-mod playback;
 mod terrain;
 
 pub use document::{
@@ -59,14 +59,14 @@ pub use network::{
     Arm, Carrier, Choice, Crossing, DrawnHeights, HeightMode, Junction, Meeting, Path, PathId, PathPlace, SketchScale,
     SpeedZone, Structure, StructureLimits, Turning, Unordered, Way,
 };
+pub use playback::{COMFORTABLE_M_S2, Camera, CameraTrack, Drive, DriveError, Moment, drive, smooth_speeds};
 pub use profile::{Elevation, Knot, Profile, ProfileError};
 pub use range::OutOfRange;
 pub use rules::{Breach, DesignRules, Rule, SpeedRule};
 pub use scene::{Finish, Instances, Part, Placement, Scene, SceneOptions};
 pub use section::{Crosses, Lane, LaneKind, Marking, Material, Piece, Section, SectionError};
 pub use smoothing::smoothed;
-pub use playback::{COMFORTABLE_M_S2, Camera, CameraTrack, Drive, DriveError, Moment, drive, smooth_speeds};
 pub use terrain::{
     CHUNK, COARSEST, Cells, GeoReference, Heightfield, Landscape, MOST_HEIGHT_M, MOST_SAMPLES, NeighbourLevels, Ray,
-    Samples, SyntheticTerrain, Terrain, TerrainError, VoidReport, fill_voids,
+    Samples, SyntheticTerrain, Terrain, TerrainError, VoidReport, WaterBody, Waters, fill_voids,
 };

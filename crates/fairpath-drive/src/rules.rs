@@ -229,7 +229,8 @@ impl DesignRules {
             };
             let kmh = path.speed_limit_kmh(at);
             let radius = 1.0 / kappa.abs();
-            let breach = |rule, value, limit| Breach { path: path.id, station_m: at, range_m: [from, to], rule, value, limit };
+            let breach =
+                |rule, value, limit| Breach { path: path.id, station_m: at, range_m: [from, to], rule, value, limit };
             let least = self.min_radius_m(kmh);
             if radius < least * (1.0 - TOLERANCE) {
                 found.push(breach(Rule::Radius, radius, least));
@@ -252,7 +253,8 @@ impl DesignRules {
         for pair in profile.knots().windows(2) {
             let range = [pair[0].station_m, pair[1].station_m];
             let (station_m, grade) = profile.steepest(range);
-            let breach = |station_m, rule, value, limit| Breach { path: path.id, station_m, range_m: range, rule, value, limit };
+            let breach =
+                |station_m, rule, value, limit| Breach { path: path.id, station_m, range_m: range, rule, value, limit };
             if grade.abs() > path.section.max_grade * (1.0 + TOLERANCE) {
                 found.push(breach(station_m, Rule::Grade, grade.abs(), path.section.max_grade));
             }

@@ -17,19 +17,22 @@ const HILLS: &str = r#"{"do":"terrain","synthetic":"hills","size":513,"cell_m":2
 
 #[test]
 fn a_road_over_hills_has_its_ground_shaped_and_both_ways_of_adding_up_volumes_agree() {
-    let document = document(&[HILLS, r#"{"do":"sketch","points_m":[[100,100],[300,180],[500,420],[700,480],[900,800]],"layer":"road"}"#]);
+    let document = document(&[
+        HILLS,
+        r#"{"do":"sketch","points_m":[[100,100],[300,180],[500,420],[700,480],[900,800]],"layer":"road"}"#,
+    ]);
     let results = document.results().unwrap();
     let road = &results.paths[0];
-    println!("{:?}", road.structures);
     let by_areas = volumes_m3(&road.sections);
     let by_grid = results.ground.volumes_m3();
-    println!("{by_areas:?} {by_grid:?}");
     for i in 0..2 {
         assert!(by_areas[i] > 100.0, "{by_areas:?}");
         assert!((by_areas[i] / by_grid[i] - 1.0).abs() < 0.01, "{by_areas:?} {by_grid:?}");
     }
     let length = road.path.length_m();
-    let inner = |s: f64| s > 3.0 && s < length - 3.0;
+    let ends = road.structures.iter().flat_map(|s| [s.from_m, s.to_m]).chain([0.0, length]);
+    let ends: Vec<f64> = ends.collect();
+    let inner = |s: f64| ends.iter().all(|end| (s - end).abs() > 3.0);
     for section in road.sections.iter().filter(|s| s.on_ground && inner(s.station_m)) {
         let ground = results.ground.height(section.point);
         let bed = section.height_m - road.path.section.bed_m;
@@ -82,13 +85,15 @@ fn three_roads_can_pass_over_each_other_in_a_ring() {
     assert_eq!(results.crossings.len(), 3, "{:?}", results.crossings);
     for crossing in &results.crossings {
         let [upper, lower] = crossing.upper_lower().expect("each was set");
-        let height = |place: fairpath_drive::PathPlace| results.path(place.path).unwrap().profile.at(place.station_m).height_m;
+        let height =
+            |place: fairpath_drive::PathPlace| results.path(place.path).unwrap().profile.at(place.station_m).height_m;
         let free = height(upper) - height(lower);
         assert!(free > 5.5 - 1e-6, "{free} at {crossing:?}");
     }
-    let breaches = document.state().rules.clearance_breaches(&results.crossings, |id| {
-        results.path(id).map(|p| (p.path.as_ref(), p.profile.as_ref()))
-    });
+    let breaches = document
+        .state()
+        .rules
+        .clearance_breaches(&results.crossings, |id| results.path(id).map(|p| (p.path.as_ref(), p.profile.as_ref())));
     assert_eq!(breaches, []);
     assert!(results.junctions.is_empty());
 }

@@ -42,7 +42,9 @@ fn one_crossing_has_the_heights_that_can_be_computed_by_hand() {
     let path = || PathPoints { stations_m: vec![50.0] };
     let over = vec![Over { upper: point(0, 0), lower: point(1, 0) }];
     let heights =
-        CrossingHeights { paths: vec![path(), path()], over: over.clone(), level: Vec::new(), length_scale_m: 1.0 }.solve().unwrap();
+        CrossingHeights { paths: vec![path(), path()], over: over.clone(), level: Vec::new(), length_scale_m: 1.0 }
+            .solve()
+            .unwrap();
     // Both move by t: 2 t² + 1 / (4 t²) is least where t⁴ = 1/8.
     let t = 0.125_f64.powf(0.25);
     assert!((heights.paths[0][0] - t).abs() < 1e-12 && (heights.paths[1][0] + t).abs() < 1e-12, "{heights:?}");
@@ -96,7 +98,7 @@ fn a_ring_at_one_place_is_named() {
 #[test]
 fn what_is_no_network_is_refused() {
     let one = |stations_m: Vec<f64>, over, length_scale_m| {
-        CrossingHeights { paths: vec![PathPoints { stations_m }], over, length_scale_m }.solve()
+        CrossingHeights { paths: vec![PathPoints { stations_m }], over, level: Vec::new(), length_scale_m }.solve()
     };
     for bad in [vec![1.0, 1.0], vec![2.0, 1.0], vec![f64::NAN], vec![0.0, f64::INFINITY]] {
         assert!(matches!(one(bad, vec![], 1.0), Err(HeightError::Stations { .. })));
@@ -147,4 +149,26 @@ proptest! {
             }
         }
     }
+}
+
+#[test]
+fn points_that_are_level_share_one_height_and_count_as_two() {
+    let path = |stations_m: &[f64]| PathPoints { stations_m: stations_m.to_vec() };
+    // Path 0 passes over path 1 and then meets path 2, which does nothing else.
+    let network = CrossingHeights {
+        paths: vec![path(&[0.0, 100.0]), path(&[50.0]), path(&[10.0])],
+        over: vec![Over { upper: point(0, 0), lower: point(1, 0) }],
+        level: vec![[point(0, 1), point(2, 0)]],
+        length_scale_m: 50.0,
+    };
+    let heights = network.solve().unwrap();
+    let [y, z] = [heights.paths[0][1], heights.paths[2][0]];
+    assert_eq!(y, z);
+    // The shared height has the weight of two points: 2 · 2 z = 2 (y₀ − z) / 2².
+    let upper = heights.paths[0][0];
+    assert!((4.0 * z - 0.5 * (upper - z)).abs() < 1e-12, "{heights:?}");
+    // A ring through what is level: over itself.
+    let over = Over { upper: point(0, 1), lower: point(2, 0) };
+    let ring = CrossingHeights { over: vec![over], ..network }.solve();
+    assert!(matches!(ring, Err(HeightError::Ring { .. })), "{ring:?}");
 }

@@ -1,7 +1,8 @@
 //! Documents over time: what follows from a state does not depend on how it was reached, and undoing and doing again lead to the same bits.
 
 use fairpath_drive::{
-    Command, CrossingSet, Document, HeightMode, Landscape, NoFiles, Section, SketchAs, Soil, StructureLimits, TerrainSource,
+    Carrier, Command, Crossing, CrossingSet, Document, DrawnHeights, HeightMode, Landscape, NoFiles, PathId, PathPlace,
+    Section, SketchAs, Soil, Structure, StructureLimits, TerrainSource, pillars,
 };
 
 /// A small generator of its own: the same on every platform.
@@ -43,7 +44,7 @@ fn name(document: &Document, random: &mut Random) -> String {
 }
 
 fn command(document: &Document, random: &mut Random) -> Command {
-    match random.below(16) {
+    match random.below(17) {
         0..=4 => {
             let count = 3 + random.below(3);
             let (from, to) = (random.place(), random.place());
@@ -79,19 +80,27 @@ fn command(document: &Document, random: &mut Random) -> Command {
             path: name(document, random),
             points_m: vec![[40.0, 20.0 + 20.0 * random.next()], [70.0, 30.0 * random.next()]],
         },
-        10 => Command::Speed { lasso_m: Some(random.square(150.0)), path: None, kmh: 30.0 + 10.0 * random.below(6) as f64 },
+        10 => Command::Speed {
+            lasso_m: Some(random.square(150.0)),
+            path: None,
+            kmh: 30.0 + 10.0 * random.below(6) as f64,
+        },
         11 => Command::Foliage { lasso_m: random.square(120.0), density: random.next() },
         12 => Command::Soil {
             lasso_m: (random.next() < 0.7).then(|| random.square(150.0)),
             class: random.of(&[Soil::Rock, Soil::Gravel, Soil::Sand, Soil::Clay]),
         },
         13 => Command::Section { path: name(document, random), template: random.of(&Section::SHIPPED).to_owned() },
-        14 => Command::Heights {
+        14 => Command::Water { lasso_m: random.square(80.0), level_m: 12.0 * random.next() },
+        15 => Command::Heights {
             path: Some(name(document, random)),
             mode: random.of(&[HeightMode::Fair, HeightMode::Draped, HeightMode::Engineered]),
         },
         _ => Command::Settings {
-            structures: Some(StructureLimits { bridge_above_m: 3.0 + 8.0 * random.next(), ..StructureLimits::default() }),
+            structures: Some(StructureLimits {
+                bridge_above_m: 3.0 + 8.0 * random.next(),
+                ..StructureLimits::default()
+            }),
             earthwork: None,
             rules: None,
             seed: Some(random.below(5) as u64),
@@ -107,6 +116,76 @@ fn islands() -> Command {
         water_level_m: Some(0.0),
         ..TerrainSource::default()
     })
+}
+
+/// What must hold of every document.
+fn is_sound(document: &Document, seed: u64) {
+    let (state, results) = (document.state(), document.results().unwrap());
+    let waters = &state.terrain.as_ref().unwrap().waters;
+    let path = |id: PathId| results.path(id).unwrap();
+    for crossing in &results.crossings {
+        let Some([upper, lower]) = crossing.upper_lower() else { continue };
+        let drawn = |place: PathPlace| {
+            let covers = |d: &DrawnHeights| {
+                d.points_m[0][0] <= place.station_m && place.station_m <= d.points_m[d.points_m.len() - 1][0]
+            };
+            path(place.path).path.drawn.iter().any(covers)
+        };
+        if drawn(upper) && drawn(lower) {
+            continue;
+        }
+        let height = |place: PathPlace| path(place.path).profile.at(place.station_m).height_m;
+        let needs = path(upper.path).path.section.thickness_m + path(lower.path).path.section.clearance_m;
+        let free = height(upper) - height(lower);
+        assert!(free >= needs - 0.01, "seed {seed}: {free} of {needs} at {crossing:?}: {:?}", document.commands());
+    }
+    for result in &results.paths {
+        for pillar in pillars(result, results) {
+            assert!(pillar.top_m > pillar.foot_m);
+            for other in results.paths.iter().filter(|o| o.path.id != result.path.id) {
+                let off = other.path.plan.nearest(pillar.place).distance;
+                assert!(
+                    off > 0.5 * other.path.section.width_m(),
+                    "seed {seed}: a pillar {off} m beside a path's middle"
+                );
+            }
+        }
+        for bridge in result.structures.iter().filter(|s| s.carrier == Carrier::Bridge) {
+            let spans = |c: &&Crossing| {
+                c.upper_lower().is_some_and(|[u, _]| {
+                    u.path == result.path.id && (bridge.from_m..=bridge.to_m).contains(&u.station_m)
+                })
+            };
+            let over_path = results.crossings.iter().any(|c| spans(&c));
+            let stations = (0..=200).map(|i| bridge.from_m + (bridge.to_m - bridge.from_m) * f64::from(i) / 200.0);
+            let over_water = stations
+                .map(|s| result.path.plan.point_at(s))
+                .map(|p| (p, results.ground.natural().height(p)))
+                .any(|(p, z)| waters.covers(p, z));
+            let high = bridge.most_m > state.settings.structures.bridge_above_m;
+            assert!(over_path || over_water || high, "seed {seed}: nothing asks for {bridge:?}");
+            assert_eq!(
+                (bridge.over_path && !over_path, bridge.over_water && !over_water),
+                (false, false),
+                "{bridge:?}"
+            );
+        }
+    }
+    for tree in results.trees.values().flat_map(|t| t.iter()) {
+        assert!(!waters.covers(tree.place, tree.foot_m), "seed {seed}: a tree in the water");
+        for result in &results.paths {
+            let near = result.path.plan.nearest(tree.place);
+            let station = result.path.plan.station(near.segment, near.s);
+            // Beyond its ends a path has no width.
+            if station < 0.1 || station > result.path.length_m() - 0.1 {
+                continue;
+            }
+            let covered =
+                |s: &Structure| s.carrier == Carrier::Tunnel && s.from_m - 8.0 <= station && station <= s.to_m + 8.0;
+            let ends = near.distance > 0.5 * result.path.section.width_m() || result.structures.iter().any(covered);
+            assert!(ends, "seed {seed}: a tree {} m beside the middle of {:?}", near.distance, result.path.name);
+        }
+    }
 }
 
 #[test]
@@ -130,6 +209,7 @@ fn what_follows_does_not_depend_on_the_way_there_and_undoing_leads_back_to_the_s
         }
         let anew = document.results_anew().unwrap();
         assert!(anew == **document.results().unwrap(), "seed {seed}: {:?}", document.commands());
+        is_sound(&document, seed);
         for results in trail.iter().rev() {
             assert!(results == document.results().unwrap(), "seed {seed}, backwards");
             document.undo();

@@ -43,8 +43,8 @@
 mod atomic;
 mod comparison;
 mod drawable;
-mod drive;
 mod drawn_spline;
+mod drive;
 mod edits;
 mod error;
 mod geodetic;

@@ -5,8 +5,8 @@
 //! the full precision of JSON.
 
 use crate::error::Error;
-use crate::surfaces::{SurfaceEntry, SurfaceFile, upright};
 use crate::gltf::{Buffers, container};
+use crate::surfaces::{SurfaceEntry, SurfaceFile, upright};
 use serde_json::{Value, json};
 
 pub(crate) fn write(file: &SurfaceFile) -> Result<Vec<u8>, Error> {

@@ -9,7 +9,7 @@ use crate::ground::SoilRegion;
 use crate::network::{Choice, Crossing, DrawnHeights, HeightMode, Path, PathId, SketchScale, SpeedZone};
 use crate::range::within;
 use crate::section::Section;
-use crate::terrain::SyntheticTerrain;
+use crate::terrain::{SyntheticTerrain, WaterBody, Waters};
 use fairpath_curve::{Continuity, Point, Segment, Spline};
 use fairpath_fit::{CurveEnd, EditError, Warning, cut, join};
 use std::sync::Arc;
@@ -153,6 +153,15 @@ pub(super) fn apply(
             regions.push(Arc::new(FoliageRegion { outline, density: *density }));
             next.foliage = Arc::new(regions);
         }
+        Command::Water { lasso_m, level_m } => {
+            within("level_m", *level_m, -1e5, 1e5, "-100000 to 100000 m")?;
+            let outline = places("lasso_m", lasso_m, 3)?;
+            if let Some(terrain) = &mut next.terrain {
+                let mut waters = terrain.waters.as_ref().clone();
+                waters.bodies.push(WaterBody { outline, level_m: *level_m });
+                terrain.waters = Arc::new(waters);
+            }
+        }
         Command::Soil { lasso_m, class } => {
             let mut soils = state.soils.as_ref().clone();
             match lasso_m {
@@ -215,10 +224,11 @@ fn laid(state: &State, source: &TerrainSource, files: &dyn Terrains) -> Result<L
     if let Some(level) = source.water_level_m {
         within("water_level_m", level, -1e5, 1e5, "-100000 to 100000 m")?;
     }
+    let waters = Arc::new(Waters { level_m: source.water_level_m, bodies: Vec::new() });
     match (&source.file, source.synthetic) {
         (Some(_), None) => {
             let laid = files.terrain(source).map_err(CommandError::TerrainFile)?;
-            Ok(LaidTerrain { water_m: source.water_level_m, ..laid })
+            Ok(LaidTerrain { waters, ..laid })
         }
         (None, Some(landscape)) => {
             let default = SyntheticTerrain::default();
@@ -228,7 +238,7 @@ fn laid(state: &State, source: &TerrainSource, files: &dyn Terrains) -> Result<L
                 cell_m: source.cell_m.unwrap_or(default.cell_m),
                 seed: source.seed.unwrap_or(default.seed),
             };
-            Ok(LaidTerrain { field: Arc::new(made.build()?), georeference: None, water_m: source.water_level_m })
+            Ok(LaidTerrain { field: Arc::new(made.build()?), georeference: None, waters })
         }
         _ => Err(CommandError::TerrainSource),
     }

@@ -133,6 +133,13 @@ pub enum Command {
         /// From 0 for none to 1 for a closed wood.
         density: f64,
     },
+    /// Fills a region with water up to a level.
+    Water {
+        /// An outline around it; what lies in it above the level is dry.
+        lasso_m: Vec<[f64; 2]>,
+        /// The level, m.
+        level_m: f64,
+    },
     /// Says what the ground is made of.
     Soil {
         /// The region's outline; else everywhere.

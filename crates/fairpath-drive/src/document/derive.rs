@@ -80,9 +80,8 @@ pub(super) fn derive(before: Option<(&State, &Results)>, state: &State, terrain:
     let is_old = |path: &Arc<Path>| old_path(path.id).is_some_and(|old| Arc::ptr_eq(&old.path, path));
     // A path that merely got another speed, say, crosses others where it did.
     let same_course = |path: &Arc<Path>| {
-        old_path(path.id).is_some_and(|old| {
-            Arc::ptr_eq(&old.path.plan, &path.plan) && Arc::ptr_eq(&old.path.section, &path.section)
-        })
+        old_path(path.id)
+            .is_some_and(|old| Arc::ptr_eq(&old.path.plan, &path.plan) && Arc::ptr_eq(&old.path.section, &path.section))
     };
     let pairs = pairs(before.map(|(_, r)| &r.pairs), state, same_course);
     let crossings = decided(&pairs, state);
@@ -96,7 +95,7 @@ pub(super) fn derive(before: Option<(&State, &Results)>, state: &State, terrain:
             Some(old) if same_course(path) && old.path.heights == path.heights && old.path.drawn == path.drawn => {
                 old.alone.clone()
             }
-            _ => Arc::new(alone(path, &terrain.field, terrain.water_m)),
+            _ => Arc::new(alone(path, &terrain.field, &terrain.waters)),
         })
         .collect();
     let mut crossings_of: Vec<Vec<Crossing>> = vec![Vec::new(); state.paths.len()];
@@ -137,7 +136,7 @@ pub(super) fn derive(before: Option<(&State, &Results)>, state: &State, terrain:
             &crossings_of[i],
             other,
             &terrain.field,
-            terrain.water_m,
+            &terrain.waters,
             &state.settings.structures,
         );
         let result = match old {
@@ -255,7 +254,7 @@ fn planted(
     for tile in which {
         // Most paths are far away.
         let near: Vec<&Hits> = corridors.iter().copied().filter(|hits| is_near(hits, tile)).collect();
-        let new = trees_on(tile, ground, &state.foliage, &near, terrain.water_m, state.settings.seed);
+        let new = trees_on(tile, ground, &state.foliage, &near, &terrain.waters, state.settings.seed);
         if new.is_empty() {
             trees.remove(&tile);
         } else {
@@ -299,7 +298,7 @@ fn intersections(
 }
 
 fn is_same_terrain(a: &LaidTerrain, b: &LaidTerrain) -> bool {
-    Arc::ptr_eq(&a.field, &b.field) && a.water_m == b.water_m
+    Arc::ptr_eq(&a.field, &b.field) && Arc::ptr_eq(&a.waters, &b.waters)
 }
 
 /// Crossings of all pairs; those of two paths that run as they did are kept.
@@ -390,7 +389,7 @@ fn heights(
         let fair: Vec<Profile> = (0..paths.len()).map(|k| profile_with(paths[k], profiles[k], &wanted[k])).collect();
         let site = Site {
             natural: &terrain.field,
-            water_m: terrain.water_m,
+            waters: &terrain.waters,
             soils: &state.soils,
             rules: &state.rules,
             earthwork: &state.settings.earthwork,

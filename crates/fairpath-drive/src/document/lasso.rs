@@ -1,6 +1,6 @@
 //! Which stretches of a plan lie within an outline.
 
-use crate::ground::inside;
+use crate::terrain::inside;
 use fairpath_curve::{Point, Spline};
 
 /// A plan is looked at in steps of this length, m: what is shorter may be missed.

@@ -4,7 +4,7 @@ use crate::ground::{EarthworkOptions, Soils};
 use crate::network::{Choice, Path, PathId, StructureLimits};
 use crate::rules::DesignRules;
 use crate::section::Section;
-use crate::terrain::{GeoReference, Heightfield};
+use crate::terrain::{GeoReference, Heightfield, Waters};
 use fairpath_curve::Point;
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -16,8 +16,8 @@ pub struct LaidTerrain {
     pub field: Arc<Heightfield>,
     /// Where on the globe it lies, if it lies anywhere.
     pub georeference: Option<GeoReference>,
-    /// What lies lower is under water, m.
-    pub water_m: Option<f64>,
+    /// Where water stands.
+    pub waters: Arc<Waters>,
 }
 
 /// A region of trees.

@@ -3,8 +3,9 @@
 //! Places are drawn by hashing the cells of a grid, and a place keeps its tree if no place within the distance has a higher lot (a hard-core process after Matérn, *Spatial Variation*, 1960,
 //! the second kind, with several lots for each cell). So each tree depends on its neighbourhood only: a change of one place changes nothing elsewhere, and the same seed gives the same wood.
 
-use crate::ground::{FineGrid, Ground, Hits, TileIndex, inside};
 use crate::document::FoliageRegion;
+use crate::ground::{FineGrid, Ground, Hits, TileIndex};
+use crate::terrain::{Waters, inside};
 use fairpath_curve::{Point, Vec2};
 use std::sync::Arc;
 
@@ -38,7 +39,7 @@ pub(crate) fn trees_on(
     ground: &Ground,
     regions: &[Arc<FoliageRegion>],
     corridors: &[&Hits],
-    water_m: Option<f64>,
+    waters: &Waters,
     seed: u64,
 ) -> Vec<Tree> {
     let grid = ground.grid();
@@ -60,7 +61,7 @@ pub(crate) fn trees_on(
                     continue;
                 }
                 let foot_m = ground.height(own.place);
-                let wet = water_m.is_some_and(|water| foot_m < water + 0.3);
+                let wet = waters.covers(own.place, foot_m - 0.3);
                 if wet || is_blocked(grid, corridors, own.place) {
                     continue;
                 }

@@ -40,7 +40,8 @@ pub fn pillars(path: &PathResult, results: &Results) -> Vec<Pillar> {
         let spacing = length / count.max(1) as f64;
         for k in 1..count {
             let wanted = bridge.from_m + k as f64 * spacing;
-            let tries = (0..=(0.45 * spacing / STEP_M) as usize).flat_map(|i| [1.0, -1.0].map(|s| s * i as f64 * STEP_M));
+            let tries =
+                (0..=(0.45 * spacing / STEP_M) as usize).flat_map(|i| [1.0, -1.0].map(|s| s * i as f64 * STEP_M));
             let free = tries.map(|by| wanted + by).find(|&s| is_free(path, s, half, results));
             let Some(station) = free else { continue };
             let pose = path.path.plan.pose_at(station);

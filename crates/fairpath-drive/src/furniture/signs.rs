@@ -53,7 +53,13 @@ const STEEP_SHARE: f64 = 0.5;
 const LEAST_CHANGE: f64 = 0.04;
 
 /// The signs of a path.
-pub(crate) fn signs(path: &Path, profile: &Profile, junctions: &[&Junction], stops: &[Arm], rules: &DesignRules) -> Vec<Sign> {
+pub(crate) fn signs(
+    path: &Path,
+    profile: &Profile,
+    junctions: &[&Junction],
+    stops: &[Arm],
+    rules: &DesignRules,
+) -> Vec<Sign> {
     if !path.section.is_road() {
         return Vec::new();
     }
@@ -100,9 +106,12 @@ pub(crate) fn signs(path: &Path, profile: &Profile, junctions: &[&Junction], sto
         add(posted, until, false);
     }
     // Nobody needs signs in the middle of an intersection.
-    let within = |s: &Sign| junctions.iter().flat_map(|j| &j.spans).any(|(id, [a, b])| {
-        *id == s.path && s.station_m > a + INSIDE_M && s.station_m < b - INSIDE_M
-    });
+    let within = |s: &Sign| {
+        junctions
+            .iter()
+            .flat_map(|j| &j.spans)
+            .any(|(id, [a, b])| *id == s.path && s.station_m > a + INSIDE_M && s.station_m < b - INSIDE_M)
+    };
     found.retain(|s| s.kind == SignKind::Stop || !within(s));
     found.sort_by(|a, b| a.station_m.total_cmp(&b.station_m).then(a.kind.cmp(&b.kind)).then(a.forward.cmp(&b.forward)));
     found.dedup_by(|b, a| a.kind == b.kind && a.forward == b.forward && b.station_m - a.station_m < NEAR_M);

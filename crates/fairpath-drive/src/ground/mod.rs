@@ -14,7 +14,6 @@ pub use volumes::{MassHaul, mass_haul, volumes_m3};
 
 pub(crate) use corridor::cross_sections;
 pub(crate) use raster::{Hits, hits};
-pub(crate) use soil::inside;
 
 use crate::terrain::Heightfield;
 use fairpath_curve::Point;

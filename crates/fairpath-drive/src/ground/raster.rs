@@ -76,7 +76,9 @@ fn strip(
             let i = usize::from(off.dot(left) < 0.0);
             let across = off.hypot2().sqrt();
             let (sa, sb) = (&a.sides[i], &b.sides[i]);
-            if across > lerp(furthest(sa), furthest(sb)) + grid.step_m() {
+            // A wall stands where it stands; elsewhere the natural ground itself ends the slope.
+            let spare = if sa.wall || sb.wall { 0.0 } else { grid.step_m() };
+            if across > lerp(furthest(sa), furthest(sb)) + spare {
                 continue;
             }
             let design = Design {
@@ -88,8 +90,7 @@ fn strip(
             let mut side = *sa;
             side.half_width_m = lerp(sa.half_width_m, sb.half_width_m);
             (side.cut_run, side.fill_run) = (lerp(sa.cut_run, sb.cut_run), lerp(sa.fill_run, sb.fill_run));
-            let [low, high] =
-                if shapes { design.bounds(&side, across) } else { [f64::NEG_INFINITY, f64::INFINITY] };
+            let [low, high] = if shapes { design.bounds(&side, across) } else { [f64::NEG_INFINITY, f64::INFINITY] };
             let (tile, sample) = grid.tile_of([column, row]);
             found.entry(tile).or_insert_with(|| Vec::with_capacity(TILE)).push(Hit {
                 sample,

@@ -1,5 +1,6 @@
 //! What the ground is made of, and how steep it can stand.
 
+use crate::terrain::inside;
 use fairpath_curve::Point;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -68,17 +69,4 @@ impl Soils {
         let region = self.regions.iter().rev().find(|r| inside(&r.outline, place));
         region.map_or(self.elsewhere, |r| r.soil)
     }
-}
-
-/// Whether a place lies within an outline: an odd number of its edges lie to the east of it.
-pub(crate) fn inside(outline: &[Point], place: Point) -> bool {
-    let mut within = false;
-    for i in 0..outline.len() {
-        let (a, b) = (outline[i], outline[(i + 1) % outline.len()]);
-        if (a.y > place.y) != (b.y > place.y) {
-            let x = a.x + (place.y - a.y) / (b.y - a.y) * (b.x - a.x);
-            within ^= place.x < x;
-        }
-    }
-    within
 }

@@ -5,7 +5,7 @@ use super::path::{HeightMode, Path, PathId};
 use crate::heights::{CrossingHeights, HeightError, HeightPoint, Over, PathPoints};
 use crate::profile::{Knot, Profile, ProfileError};
 use crate::smoothing::smoothed;
-use crate::terrain::Heightfield;
+use crate::terrain::{Heightfield, Waters};
 use std::f64::consts::TAU;
 
 /// The ground is looked at in steps of this length along a path, m.
@@ -16,6 +16,9 @@ const WAVE_M_PER_KMH: f64 = 2.5;
 
 /// No longer waves are halved to make a path less steep, m: rather it stays steep, and the check of the design says so.
 const LONGEST_WAVE_M: f64 = 1000.0;
+
+/// Weight of the ground at a path's ends, beside 1 everywhere else.
+const END_WEIGHT: f64 = 1000.0;
 
 /// A path over water lies this much above it, m.
 pub(super) const FREEBOARD_M: f64 = 2.0;
@@ -33,14 +36,15 @@ const LENGTH_SCALE_M: f64 = 60.0;
 const TRANSITION_M_PER_KMH: f64 = 1.0;
 
 /// A profile that a path would have alone: the ground along it, made fair, with what was drawn.
-pub(crate) fn alone(path: &Path, ground: &Heightfield, water_m: Option<f64>) -> Profile {
+pub(crate) fn alone(path: &Path, ground: &Heightfield, waters: &Waters) -> Profile {
     let length = path.length_m();
     let closed = path.plan.is_closed();
     let count = (length / STEP_M).ceil().max(2.0) as usize;
     let step = length / count as f64;
     let height = |station: f64| {
-        let z = ground.smooth_height(path.plan.point_at(if closed { station.rem_euclid(length) } else { station }));
-        water_m.map_or(z, |water| z.max(water + FREEBOARD_M))
+        let place = path.plan.point_at(if closed { station.rem_euclid(length) } else { station });
+        let z = ground.smooth_height(place);
+        waters.level_at(place).map_or(z, |level| z.max(level + FREEBOARD_M))
     };
     // A closed path is gone round a little further at both ends, so that it is as fair there as elsewhere.
     let wave = WAVE_M_PER_KMH * path.section.speed_kmh;
@@ -56,7 +60,11 @@ pub(crate) fn alone(path: &Path, ground: &Heightfield, water_m: Option<f64>) -> 
     let profile = if path.heights == HeightMode::Draped {
         whole(Profile::catmull_rom(&points))
     } else {
-        let weights = vec![1.0; points.len()];
+        let mut weights = vec![1.0; points.len()];
+        if !closed {
+            // A path begins and ends on the ground.
+            (weights[0], weights[count]) = (END_WEIGHT, END_WEIGHT);
+        }
         let fair = |wave: f64| whole(smoothed(&points, &weights, libm::pow(wave / TAU, 4.0) / step));
         let too_steep = |profile: &Profile| profile.steepest([0.0, length]).1.abs() > path.section.max_grade;
         // What is still too steep is made fairer, as long as that helps without leaving the ground altogether.

@@ -10,7 +10,7 @@ use crate::engineered::{
 use crate::ground::{EarthworkOptions, Soils};
 use crate::profile::Profile;
 use crate::rules::DesignRules;
-use crate::terrain::Heightfield;
+use crate::terrain::{Heightfield, Waters};
 
 /// Vertical curves begin and end at multiples of this length, m, or of a quarter of the path.
 const KNOTS_M: f64 = 10.0;
@@ -21,7 +21,7 @@ const GROUND_M: f64 = 5.0;
 /// What the heights of engineered paths depend on beside the paths.
 pub(crate) struct Site<'a> {
     pub(crate) natural: &'a Heightfield,
-    pub(crate) water_m: Option<f64>,
+    pub(crate) waters: &'a Waters,
     pub(crate) soils: &'a Soils,
     pub(crate) rules: &'a DesignRules,
     pub(crate) earthwork: &'a EarthworkOptions,
@@ -115,7 +115,7 @@ fn road(path: &Path, site: &Site<'_>) -> EngineeredRoad {
         fixed: fixed
             .map(|[station_m, height_m]| FixedPoint { station_m: *station_m, height_m: *height_m, grade: None })
             .collect(),
-        bounds: wet(&ground, site.water_m),
+        bounds: wet(path, &ground, site.waters),
         start_grade: None,
         end_grade: None,
         stretches: Vec::new(),
@@ -124,24 +124,23 @@ fn road(path: &Path, site: &Site<'_>) -> EngineeredRoad {
 }
 
 /// Over water a road keeps its freeboard.
-fn wet(ground: &[[f64; 2]], water_m: Option<f64>) -> Vec<HeightBound> {
-    let Some(water) = water_m else { return Vec::new() };
+fn wet(path: &Path, ground: &[[f64; 2]], waters: &Waters) -> Vec<HeightBound> {
     let mut bounds: Vec<HeightBound> = Vec::new();
-    let mut before = false;
+    let mut before = None;
     let end = ground.last().map_or(0.0, |g| g[0]);
     for [station, z] in ground {
-        let wet = *z < water;
-        match bounds.last_mut() {
-            Some(last) if wet && before => last.to_m = (*station + AROUND_M).min(end),
-            _ if wet => bounds.push(HeightBound {
+        let level = waters.level_at(path.plan.point_at(*station)).filter(|level| z < level);
+        match (bounds.last_mut(), level) {
+            (Some(last), Some(_)) if level == before => last.to_m = (*station + AROUND_M).min(end),
+            (_, Some(level)) => bounds.push(HeightBound {
                 from_m: (*station - AROUND_M).max(0.0),
                 to_m: (*station + AROUND_M).min(end),
-                lowest_m: Some(water + FREEBOARD_M),
+                lowest_m: Some(level + FREEBOARD_M),
                 highest_m: None,
             }),
             _ => {}
         }
-        before = wet;
+        before = level;
     }
     bounds
 }

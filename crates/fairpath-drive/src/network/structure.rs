@@ -3,7 +3,7 @@
 use super::contact::{Crossing, PathPlace};
 use super::path::Path;
 use crate::profile::Profile;
-use crate::terrain::Heightfield;
+use crate::terrain::{Heightfield, Waters};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -72,7 +72,7 @@ pub(crate) fn structures<'a>(
     crossings: &[Crossing],
     other: impl Fn(PathPlace) -> Option<&'a Path>,
     ground: &Heightfield,
-    water_m: Option<f64>,
+    waters: &Waters,
     limits: &StructureLimits,
 ) -> Vec<Structure> {
     let length = path.length_m();
@@ -81,8 +81,9 @@ pub(crate) fn structures<'a>(
     let station = |i: usize| length * i as f64 / count as f64;
     let at: Vec<(f64, bool)> = (0..=count)
         .map(|i| {
-            let z = ground.height(path.plan.point_at(station(i)));
-            let wet = water_m.is_some_and(|water| z < water);
+            let place = path.plan.point_at(station(i));
+            let z = ground.height(place);
+            let wet = waters.covers(place, z);
             (profile.at(station(i)).height_m - z, wet)
         })
         .collect();

@@ -57,11 +57,9 @@ impl CameraTrack {
         match self {
             Self::Driver => Camera { eye: place(0.0, 0.0, EYES_M), target: place(20.0, 0.0, EYES_M - 0.3), up },
             Self::Chase => Camera { eye: place(-14.0, 0.0, 5.0), target: place(10.0, 0.0, 1.0), up },
-            Self::Aerial => Camera {
-                eye: place(0.0, 0.0, 150.0),
-                target: place(0.0, 0.0, 0.0),
-                up: [along.x, along.y, 0.0],
-            },
+            Self::Aerial => {
+                Camera { eye: place(0.0, 0.0, 150.0), target: place(0.0, 0.0, 0.0), up: [along.x, along.y, 0.0] }
+            }
             Self::Side => Camera { eye: place(0.0, 30.0, 8.0), target: place(0.0, 0.0, 1.0), up },
         }
     }

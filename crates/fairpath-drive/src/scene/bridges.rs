@@ -40,7 +40,8 @@ pub(super) fn add(scene: &mut Scene, path: &PathResult, results: &Results) {
             // The abutment closes the embankment below the deck, down into the ground.
             let foot = section.natural_m.min(section.height_m + deep) - 1.0 - section.height_m;
             let corner = |left_m: f64, above_m: f64| beside(section, left_m, above_m);
-            let face = [corner(out_left, foot), corner(-out_right, foot), corner(-out_right, 0.0), corner(out_left, 0.0)];
+            let face =
+                [corner(out_left, foot), corner(-out_right, foot), corner(-out_right, 0.0), corner(out_left, 0.0)];
             let turned = [face[1], face[0], face[3], face[2]];
             quad(&mut mesh, if backward { turned } else { face });
             quad(&mut mesh, if backward { face } else { turned });
@@ -70,5 +71,9 @@ pub(super) fn add(scene: &mut Scene, path: &PathResult, results: &Results) {
             scale: 1.0,
         })
     });
-    scene.instances.push(Instances { name: format!("pillars of {}", path.path.name), at: at.collect(), parts: vec![unit] });
+    scene.instances.push(Instances {
+        name: format!("pillars of {}", path.path.name),
+        at: at.collect(),
+        parts: vec![unit],
+    });
 }

@@ -4,7 +4,7 @@ use super::shape::{P3, quad};
 use super::{Finish, Scene, SceneOptions};
 use crate::document::{Results, State};
 use crate::ground::Ground;
-use crate::terrain::{CHUNK, COARSEST, Heightfield, NeighbourLevels};
+use crate::terrain::{CHUNK, COARSEST, Heightfield, NeighbourLevels, Waters};
 use fairpath_curve::{Point, Rect};
 use fairpath_shape::Mesh;
 use std::collections::{BTreeMap, BTreeSet};
@@ -67,12 +67,41 @@ pub(super) fn add(scene: &mut Scene, state: &State, results: &Results, options: 
     }
     scene.part("terrain beside paths", Finish::Ground, wild);
     scene.part("earthwork", Finish::Earthwork, worked);
-    if let Some(water) = state.terrain.as_ref().and_then(|t| t.water_m) {
-        let (low, high) = (natural.corner(), natural.far_corner());
-        let mut mesh = Mesh::default();
-        quad(&mut mesh, [[low.x, low.y, water], [high.x, low.y, water], [high.x, high.y, water], [low.x, high.y, water]]);
-        scene.part("water", Finish::Water, mesh);
+    if let Some(waters) = state.terrain.as_ref().map(|t| &t.waters) {
+        scene.part("water", Finish::Water, water(natural, waters));
     }
+}
+
+/// The surface of all water: the sea as one sheet, bodies of water in the cells of the terrain that they reach.
+fn water(natural: &Heightfield, waters: &Waters) -> Mesh {
+    let mut mesh = Mesh::default();
+    let mut sheet = |[low, high]: [Point; 2], z: f64| {
+        quad(&mut mesh, [[low.x, low.y, z], [high.x, low.y, z], [high.x, high.y, z], [low.x, high.y, z]]);
+    };
+    if let Some(level) = waters.level_m {
+        sheet([natural.corner(), natural.far_corner()], level);
+    }
+    let last = natural.size().map(|n| n - 2);
+    for body in &waters.bodies {
+        let bounds = |values: &dyn Fn(&Point) -> f64, from: f64, step: f64, last: usize| {
+            let cell = |x: f64| (((x - from) / step).floor().max(0.0) as usize).min(last);
+            let low = body.outline.iter().map(values).fold(f64::INFINITY, f64::min);
+            let high = body.outline.iter().map(values).fold(f64::NEG_INFINITY, f64::max);
+            cell(low)..=cell(high)
+        };
+        let (corner, spacing) = (natural.corner(), natural.spacing_m());
+        for row in bounds(&|p| p.y, corner.y, spacing.y, last[1]) {
+            for column in bounds(&|p| p.x, corner.x, spacing.x, last[0]) {
+                let cell = [natural.place([column, row]), natural.place([column + 1, row + 1])];
+                let middle = cell[0].midpoint(cell[1]);
+                let corners = [[0, 0], [1, 0], [0, 1], [1, 1]].map(|[i, j]| natural.sample([column + i, row + j]));
+                if waters.level_at(middle) == Some(body.level_m) && corners.iter().any(|z| *z < body.level_m) {
+                    sheet(cell, body.level_m);
+                }
+            }
+        }
+    }
+    mesh
 }
 
 /// How far a box lies from another one.

@@ -77,7 +77,11 @@ fn between(sections: &[CrossSection], station: f64) -> Option<CrossSection> {
     let i = sections.partition_point(|s| s.station_m < station);
     let b = sections.get(i).or(sections.last())?;
     let a = &sections[i.saturating_sub(1)];
-    let t = if b.station_m > a.station_m { ((station - a.station_m) / (b.station_m - a.station_m)).clamp(0.0, 1.0) } else { 0.0 };
+    let t = if b.station_m > a.station_m {
+        ((station - a.station_m) / (b.station_m - a.station_m)).clamp(0.0, 1.0)
+    } else {
+        0.0
+    };
     let left = a.left.lerp(b.left, t);
     Some(CrossSection {
         station_m: station,
@@ -116,7 +120,11 @@ fn surface(section: &Section, run: &[CrossSection], meshes: &mut BTreeMap<Finish
     let mesh = meshes.entry(Finish::Section(edge(&section.right))).or_default();
     band(mesh, &line(-right, 0.0), &line(-right, -depth));
     if !section.shapes_ground {
-        band(meshes.entry(Finish::Section(edge(&section.left))).or_default(), &line(-right, -depth), &line(left, -depth));
+        band(
+            meshes.entry(Finish::Section(edge(&section.left))).or_default(),
+            &line(-right, -depth),
+            &line(left, -depth),
+        );
     }
 }
 

@@ -29,7 +29,8 @@ pub(super) fn add(scene: &mut Scene, results: &Results) {
             let off = if sign.forward { -(to_right + BESIDE_M) } else { to_left + BESIDE_M };
             let p = pose.point + left * off;
             let z = path.profile.at(sign.station_m).height_m - 0.1;
-            let heading_rad = if sign.forward { pose.heading } else { trig::wrap_angle(pose.heading + std::f64::consts::PI) };
+            let heading_rad =
+                if sign.forward { pose.heading } else { trig::wrap_angle(pose.heading + std::f64::consts::PI) };
             let placement = Placement { position: [p.x, p.y, z], heading_rad, pitch_rad: 0.0, scale: 1.0 };
             at.entry(sign.kind).or_default().push(placement);
         }

@@ -7,6 +7,7 @@ mod pyramid;
 mod ray;
 mod synthetic;
 mod voids;
+mod water;
 
 pub use chunks::{CHUNK, COARSEST, NeighbourLevels};
 pub use georeference::GeoReference;
@@ -15,6 +16,8 @@ pub use pyramid::Cells;
 pub use ray::Ray;
 pub use synthetic::{Landscape, SyntheticTerrain};
 pub use voids::{VoidReport, fill_voids};
+pub(crate) use water::inside;
+pub use water::{WaterBody, Waters};
 
 use fairpath_curve::Point;
 use pyramid::Pyramid;
@@ -55,6 +58,12 @@ impl Terrain {
             // On the terrain itself, whatever rounding makes of the way there.
             [x, y, self.field.height(Point::new(x, y))]
         })
+    }
+
+    /// A stroke of a camera's view laid on the terrain: where its rays meet it, in plan; rays that meet nothing are left out (section 3.4 of the thesis).
+    #[must_use]
+    pub fn draped(&self, rays: &[Ray]) -> Vec<Point> {
+        rays.iter().filter_map(|ray| self.hit(ray)).map(|[x, y, _]| Point::new(x, y)).collect()
     }
 
     /// Changes heights: `height` gets a sample's column and row and its height, and gives its new one; one that is not within [`MOST_HEIGHT_M`] changes nothing. Takes time in proportion to the samples at the corners of

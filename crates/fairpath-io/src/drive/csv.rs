@@ -15,8 +15,19 @@ pub(super) fn write(export: &DriveExport<'_>) -> Result<Vec<u8>, Error> {
         problem: e.to_string(),
     };
     let head = [
-        "path", "station_m", "x_m", "y_m", "z_m", "ground_m", "heading_rad", "curvature_per_m", "grade", "speed_kmh",
-        "carrier", "cut_m2", "fill_m2",
+        "path",
+        "station_m",
+        "x_m",
+        "y_m",
+        "z_m",
+        "ground_m",
+        "heading_rad",
+        "curvature_per_m",
+        "grade",
+        "speed_kmh",
+        "carrier",
+        "cut_m2",
+        "fill_m2",
     ];
     writer.write_record(head).map_err(unwritable)?;
     for path in &export.results.paths {
@@ -63,9 +74,8 @@ pub(super) fn write(export: &DriveExport<'_>) -> Result<Vec<u8>, Error> {
 pub fn encode_moments(drive: &Drive, camera: Option<CameraTrack>) -> Result<Vec<u8>, Error> {
     let mut writer = ::csv::Writer::from_writer(Vec::new());
     let unwritable = |problem: String| Error::Unwritable { format: "CSV", place: "the drive".to_owned(), problem };
-    let mut head = vec![
-        "time_s", "driven_m", "x_m", "y_m", "z_m", "heading_rad", "grade", "curvature_per_m", "speed_m_s",
-    ];
+    let mut head =
+        vec!["time_s", "driven_m", "x_m", "y_m", "z_m", "heading_rad", "grade", "curvature_per_m", "speed_m_s"];
     if camera.is_some() {
         head.extend(["eye_x_m", "eye_y_m", "eye_z_m", "target_x_m", "target_y_m", "target_z_m"]);
     }

@@ -37,11 +37,10 @@ impl TerrainFolder {
 impl Terrains for TerrainFolder {
     fn terrain(&self, source: &TerrainSource) -> Result<LaidTerrain, String> {
         let file = source.file.as_deref().unwrap_or_default();
-        let mut options = TerrainOptions::default();
-        options.height_range_m = source.range_m;
-        options.spacing_m = source.cell_m;
+        let options =
+            TerrainOptions { height_range_m: source.range_m, spacing_m: source.cell_m, ..TerrainOptions::default() };
         let read = read_terrain(&self.folder.join(file), &options).map_err(|e| e.to_string())?;
         self.warnings.borrow_mut().extend(read.warnings);
-        Ok(LaidTerrain { field: Arc::new(read.field), georeference: read.georeference, water_m: None })
+        Ok(LaidTerrain { field: Arc::new(read.field), georeference: read.georeference, waters: Arc::default() })
     }
 }

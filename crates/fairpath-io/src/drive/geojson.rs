@@ -14,14 +14,14 @@ const ACCURACY_M: f64 = 0.05;
 const DECIMALS: f64 = 1e8;
 
 pub(super) fn write(export: &DriveExport<'_>) -> Result<Vec<u8>, Error> {
-    let unwritable = |problem: String| Error::Unwritable {
-        format: "GeoJSON",
-        place: "the terrain".to_owned(),
-        problem,
-    };
+    let unwritable =
+        |problem: String| Error::Unwritable { format: "GeoJSON", place: "the terrain".to_owned(), problem };
     let georeference = export.state.terrain.as_ref().and_then(|t| t.georeference.as_ref());
     let georeference = georeference.ok_or_else(|| {
-        unwritable("it lies nowhere on the globe; GeoJSON needs a terrain with a georeference, such as a GeoTIFF or SRTM".to_owned())
+        unwritable(
+            "it lies nowhere on the globe; GeoJSON needs a terrain with a georeference, such as a GeoTIFF or SRTM"
+                .to_owned(),
+        )
     })?;
     let projector = Projector::new(georeference).map_err(|e| unwritable(e.to_string()))?;
     let place = |p: Point, z: f64| -> Result<Value, Error> {

@@ -124,16 +124,18 @@ fn lines(path: &Path, georeference: Option<&GeoReference>) -> Result<Vec<(String
     let name = label(path);
     let in_file = |fault: Fault| fault.in_file(&name);
     let georeference = georeference.ok_or_else(|| {
-        in_file(Fault::new("the file as a whole", "it is in longitude and latitude, and the terrain lies nowhere on the globe"))
+        in_file(Fault::new(
+            "the file as a whole",
+            "it is in longitude and latitude, and the terrain lies nowhere on the globe",
+        ))
     })?;
-    let projector = Projector::new(georeference)
-        .map_err(|e| in_file(Fault::new("the terrain's georeference", e.to_string())))?;
+    let projector =
+        Projector::new(georeference).map_err(|e| in_file(Fault::new("the terrain's georeference", e.to_string())))?;
     let bytes = read_all(open(path)?, &options.limits).map_err(in_file)?;
     let (file, places) = text(&bytes).and_then(|t| strokes_geojson::read_places(t, &options)).map_err(in_file)?;
     let mut lines = Vec::with_capacity(places.len());
     for (stroke, places) in file.strokes.into_iter().zip(places) {
-        let points: Result<Vec<Point>, _> =
-            places.iter().map(|p| projector.point([p.longitude, p.latitude])).collect();
+        let points: Result<Vec<Point>, _> = places.iter().map(|p| projector.point([p.longitude, p.latitude])).collect();
         let points = points.map_err(|e| in_file(Fault::new(format_args!("line {:?}", stroke.name), e.to_string())))?;
         lines.push((stroke.name, points));
     }
@@ -144,7 +146,8 @@ fn lines(path: &Path, georeference: Option<&GeoReference>) -> Result<Vec<(String
 fn on_terrain(field: &Heightfield, points: &[Point]) -> Vec<Vec<Point>> {
     let (low, high, spacing) = (field.corner(), field.far_corner(), field.spacing_m());
     let inside = |p: &&Point| {
-        (low.x + spacing.x..=high.x - spacing.x).contains(&p.x) && (low.y + spacing.y..=high.y - spacing.y).contains(&p.y)
+        (low.x + spacing.x..=high.x - spacing.x).contains(&p.x)
+            && (low.y + spacing.y..=high.y - spacing.y).contains(&p.y)
     };
     points.split(|p| !inside(&p)).filter(|run| run.len() > 1).map(<[Point]>::to_vec).collect()
 }

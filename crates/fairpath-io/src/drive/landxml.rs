@@ -19,25 +19,31 @@ pub(super) fn write(export: &DriveExport<'_>) -> Result<Vec<u8>, Error> {
     let georeference = export.state.terrain.as_ref().and_then(|t| t.georeference.as_ref());
     let origin = georeference.map_or([0.0; 2], |g| g.origin_m);
     let mut xml = Xml::default();
-    xml.open("LandXML", &[
-        ("xmlns", "http://www.landxml.org/schema/LandXML-1.2"),
-        ("version", "1.2"),
-        // The format asks for a date, and the same network shall be the same file.
-        ("date", "2000-01-01"),
-        ("time", "00:00:00"),
-        ("readOnly", "false"),
-        ("language", "English"),
-    ]);
+    xml.open(
+        "LandXML",
+        &[
+            ("xmlns", "http://www.landxml.org/schema/LandXML-1.2"),
+            ("version", "1.2"),
+            // The format asks for a date, and the same network shall be the same file.
+            ("date", "2000-01-01"),
+            ("time", "00:00:00"),
+            ("readOnly", "false"),
+            ("language", "English"),
+        ],
+    );
     xml.open("Units", &[]);
-    xml.empty("Metric", &[
-        ("areaUnit", "squareMeter"),
-        ("linearUnit", "meter"),
-        ("volumeUnit", "cubicMeter"),
-        ("temperatureUnit", "celsius"),
-        ("pressureUnit", "milliBars"),
-        ("angularUnit", "radians"),
-        ("directionUnit", "radians"),
-    ]);
+    xml.empty(
+        "Metric",
+        &[
+            ("areaUnit", "squareMeter"),
+            ("linearUnit", "meter"),
+            ("volumeUnit", "cubicMeter"),
+            ("temperatureUnit", "celsius"),
+            ("pressureUnit", "milliBars"),
+            ("angularUnit", "radians"),
+            ("directionUnit", "radians"),
+        ],
+    );
     xml.close("Units");
     if let Some(georeference) = georeference {
         let epsg = georeference.epsg.map(|e| e.to_string());
@@ -125,13 +131,16 @@ fn element(xml: &mut Xml, segment: &Segment, origin: [f64; 2]) {
         Kind::Clothoid => {
             let radius = |kappa: f64| if kappa == 0.0 { "INF".to_owned() } else { number(1.0 / kappa.abs()) };
             let (from, to) = (radius(segment.kappa0), radius(segment.kappa1));
-            xml.open("Spiral", &[
-                ("length", &length),
-                ("radiusEnd", &to),
-                ("radiusStart", &from),
-                ("rot", rot),
-                ("spiType", "clothoid"),
-            ]);
+            xml.open(
+                "Spiral",
+                &[
+                    ("length", &length),
+                    ("radiusEnd", &to),
+                    ("radiusStart", &from),
+                    ("rot", rot),
+                    ("spiType", "clothoid"),
+                ],
+            );
             xml.leaf("Start", &[], &place(start));
             xml.leaf("PI", &[], &place(tangents_meet(segment)));
             xml.leaf("End", &[], &place(end));

@@ -10,11 +10,11 @@ mod plan;
 mod roads;
 
 use super::export::DriveExport;
+use super::xml::{self, Xml};
 use crate::error::Error;
 use fairpath_drive::{LaneKind, PathResult};
 use junctions::connecting_roads;
 use roads::Network;
-use super::xml::{self, Xml};
 
 /// The names that OpenDRIVE has for lanes.
 fn lane_type(kind: LaneKind) -> &'static str {

@@ -57,7 +57,8 @@ pub fn encode_project(document: &Document) -> Result<Vec<u8>, Error> {
 /// What followed, in so far as other programs may want it, and sums of the rest.
 fn results(results: &Results) -> Value {
     let path = |p: &fairpath_drive::PathResult| {
-        let segment = |s: &fairpath_curve::Segment| json!([s.start.x, s.start.y, s.heading, s.length, s.kappa0, s.kappa1]);
+        let segment =
+            |s: &fairpath_curve::Segment| json!([s.start.x, s.start.y, s.heading, s.length, s.kappa0, s.kappa1]);
         let knot = |k: &fairpath_drive::Knot| json!([k.station_m, k.height_m, k.grade]);
         json!({
             "name": p.path.name,
@@ -121,7 +122,8 @@ pub fn read_project(path: &Path, options: &ReadOptions) -> Result<DriveProject, 
     let bytes = read_all(open(path)?, &options.limits).map_err(in_file)?;
     let record: Record =
         text(&bytes).and_then(|t| serde_json::from_str(t).map_err(|e| json_fault(&e))).map_err(in_file)?;
-    let checked = check_format::<serde_json::Error>(&record.format, FORMAT).and_then(|()| check_version(record.version));
+    let checked =
+        check_format::<serde_json::Error>(&record.format, FORMAT).and_then(|()| check_version(record.version));
     checked.map_err(|e| in_file(json_fault(&e)))?;
     let files = TerrainFolder::beside(path);
     let mut document = Document::new();

@@ -61,11 +61,9 @@ impl Xml {
     /// The text.
     pub(crate) fn finish(self) -> Result<Vec<u8>, Error> {
         match self.failed {
-            Some(error) => Err(Error::Unwritable {
-                format: "XML",
-                place: "the document".to_owned(),
-                problem: error.to_string(),
-            }),
+            Some(error) => {
+                Err(Error::Unwritable { format: "XML", place: "the document".to_owned(), problem: error.to_string() })
+            }
             None => {
                 let mut bytes = self.writer.into_inner();
                 bytes.push(b'\n');

@@ -6,8 +6,8 @@ use std::time::Instant;
 use anyhow::{Context, Result, bail};
 use fairpath_drive::{Breach, CameraTrack, Command, Document, Results, State};
 use fairpath_io::{
-    DriveExport, ExportFormat, PathSummary, ReadOptions, ScriptCommand, TerrainFolder, encode_drive, encode_moments, encode_project,
-    is_project, read_drive_script, read_project, summaries,
+    DriveExport, ExportFormat, PathSummary, ReadOptions, ScriptCommand, TerrainFolder, encode_drive, encode_moments,
+    encode_project, is_project, read_drive_script, read_project, summaries,
 };
 
 use super::Ending;
@@ -64,7 +64,8 @@ fn check(args: &DriveCheckArgs, printer: &mut Printer) -> Result<Ending> {
     let document = opened(&args.project, false, printer)?;
     let (state, results) = laid(&document, &args.project)?;
     let all = summaries(state, results);
-    let rows: Vec<Vec<String>> = all.iter().flat_map(|path| path.breaches.iter().map(|b| breach(&path.name, b))).collect();
+    let rows: Vec<Vec<String>> =
+        all.iter().flat_map(|path| path.breaches.iter().map(|b| breach(&path.name, b))).collect();
     let broken = !rows.is_empty();
     let head = ["path", "station m", "from m", "to m", "rule", "value", "limit", "unit"];
     let head = vec![head.map(str::to_owned).to_vec()];
@@ -119,7 +120,8 @@ fn opened(path: &Path, times: bool, printer: &mut Printer) -> Result<Document> {
                 let Some(terrain) = document.state().terrain.as_ref() else {
                     bail!("{}: command {} (import): lay the terrain first", path.display(), i + 1);
                 };
-                let (sketches, left_out) = import.sketches(files.folder(), &terrain.field, terrain.georeference.as_ref())?;
+                let (sketches, left_out) =
+                    import.sketches(files.folder(), &terrain.field, terrain.georeference.as_ref())?;
                 if left_out > 0 {
                     printer.note(&format!("{}: {left_out} lines were left out", import.file));
                 }
@@ -148,9 +150,8 @@ fn run_one(
         .and_then(|v| v.get("do").and_then(serde_json::Value::as_str).map(str::to_owned))
         .unwrap_or_default();
     let begun = Instant::now();
-    let outcome = document
-        .run(command, files)
-        .with_context(|| format!("{}: command {number} ({name})", path.display()))?;
+    let outcome =
+        document.run(command, files).with_context(|| format!("{}: command {number} ({name})", path.display()))?;
     if times {
         printer.note(&format!("{:8.1} ms  command {number} ({name})", ms(begun)));
     }
@@ -175,8 +176,21 @@ fn laid<'a>(document: &'a Document, path: &Path) -> Result<(&'a State, &'a Resul
 /// The table of paths.
 fn table(all: &[PathSummary]) -> String {
     let head = [
-        "path", "length m", "curves", "min R m", "max grade %", "lowest m", "highest m", "cut m3", "fill m3", "bridges",
-        "m", "tunnels", "m", "signs", "breaches",
+        "path",
+        "length m",
+        "curves",
+        "min R m",
+        "max grade %",
+        "lowest m",
+        "highest m",
+        "cut m3",
+        "fill m3",
+        "bridges",
+        "m",
+        "tunnels",
+        "m",
+        "signs",
+        "breaches",
     ];
     let mut rows = vec![head.map(str::to_owned).to_vec()];
     for path in all {

@@ -80,12 +80,8 @@ fn a_drive_is_told_over_time() {
     script(folder.path());
     let args = ["drive", "play", "roads.json", "--path", "a", "--step", "0.5", "--camera", "chase"];
     let driven = ran(folder.path(), &args).ended(0);
-    let rows: Vec<Vec<f64>> = driven
-        .text()
-        .lines()
-        .skip(1)
-        .map(|line| line.split(',').map(|x| x.parse().unwrap()).collect())
-        .collect();
+    let rows: Vec<Vec<f64>> =
+        driven.text().lines().skip(1).map(|line| line.split(',').map(|x| x.parse().unwrap()).collect()).collect();
     assert!(rows.len() > 50 && rows.iter().all(|row| row.len() == 15));
     for pair in rows.windows(2) {
         let [a, b] = [&pair[0], &pair[1]];
@@ -114,11 +110,20 @@ fn bad_scripts_are_refused_by_place_and_nothing_is_written() {
         (format!("{head}{hills},{{\"do\":\"sketch\",\"points_m\":[[0,0]]}}]}}"), "command 2 (sketch)"),
         (format!("{head}{hills},{{\"do\":\"sketch\",\"points_m\":[[1e300,0],[1,1]]}}]}}"), "within ±1e9 m"),
         (format!("{head}{hills},{{\"do\":\"sketch\",\"points_m\":[[5,5],[5,5]]}}]}}"), "becomes no path"),
-        (format!("{head}{hills},{{\"do\":\"speed\",\"path\":\"x\",\"kmh\":50}}]}}"), "there is no path \"x\"; there are none"),
+        (
+            format!("{head}{hills},{{\"do\":\"speed\",\"path\":\"x\",\"kmh\":50}}]}}"),
+            "there is no path \"x\"; there are none",
+        ),
         (format!("{head}{hills},{hills}]}}"), "there is a terrain already"),
         (format!("{head}{hills},{{\"do\":\"crossing\",\"near_m\":[9,9],\"set\":\"over\"}}]}}"), "no crossing"),
-        (format!("{head}{hills},{{\"do\":\"foliage\",\"lasso_m\":[[0,0],[9,0],[9,9]],\"density\":7}}]}}"), "density is 7; expected 0 to 1"),
-        (format!("{head}{hills},{{\"do\":\"sketch\",\"section\":\"moat\",\"points_m\":[[9,9],[99,99]]}}]}}"), "two-lane, four-lane"),
+        (
+            format!("{head}{hills},{{\"do\":\"foliage\",\"lasso_m\":[[0,0],[9,0],[9,9]],\"density\":7}}]}}"),
+            "density is 7; expected 0 to 1",
+        ),
+        (
+            format!("{head}{hills},{{\"do\":\"sketch\",\"section\":\"moat\",\"points_m\":[[9,9],[99,99]]}}]}}"),
+            "two-lane, four-lane",
+        ),
         (head.to_owned(), "cut off"),
     ];
     for (text, said) in cases {

@@ -1,8 +1,8 @@
 //! Intersections: a road for each way through, with one lane, and the connections.
 
 use super::roads::{Network, junction_id};
-use crate::drive::xml::{Xml, number};
 use super::{lanes, plan};
+use crate::drive::xml::{Xml, number};
 use fairpath_curve::Segment;
 use fairpath_drive::{Arm, Results, Turning, Way};
 

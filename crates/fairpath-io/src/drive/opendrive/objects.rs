@@ -34,7 +34,8 @@ pub(super) fn write_objects(xml: &mut Xml, road: &Road<'_>) {
             let id = format!("{}{}{k}", road.id, &element[..1]);
             let name = format!("{element} of {}", road.path.path.name);
             let (s, length) = (number(*from), number(to - from));
-            let mut attributes = vec![("id", id.as_str()), ("name", &name), ("s", &s), ("length", &length), ("type", kind)];
+            let mut attributes =
+                vec![("id", id.as_str()), ("name", &name), ("s", &s), ("length", &length), ("type", kind)];
             if carrier == Carrier::Tunnel {
                 attributes.extend([("lighting", "1"), ("daylight", "0")]);
             }

@@ -57,8 +57,9 @@ pub(super) fn write_plan(xml: &mut Xml, geometries: &[Segment]) {
     xml.close("planView");
 }
 
-/// What a cubic may be off where another one goes on for it, by coefficient.
-const SAME_CUBIC: [f64; 4] = [1e-7, 1e-9, 1e-11, 1e-13];
+/// A cubic that another one goes on for may be off by this in height, m, and grade.
+const SAME_HEIGHT_M: f64 = 1e-6;
+const SAME_GRADE: f64 = 1e-7;
 
 /// The profile of a road, which begins at station 0. A piece that merely goes on as the one before has no record of its own.
 pub(super) fn write_elevation(xml: &mut Xml, profile: &Profile) {
@@ -66,10 +67,12 @@ pub(super) fn write_elevation(xml: &mut Xml, profile: &Profile) {
     let mut written: Option<(f64, [f64; 4])> = None;
     for (i, knot) in profile.knots().iter().enumerate().take(profile.knots().len() - 1) {
         let cubic = profile.cubic(i);
-        let goes_on = written.is_some_and(|(from, [a, b, c, d])| {
-            let s = knot.station_m - from;
-            let here = [a + s * (b + s * (c + s * d)), b + s * (2.0 * c + 3.0 * d * s), c + 3.0 * d * s, d];
-            here.iter().zip(cubic).zip(SAME_CUBIC).all(|((h, x), most)| (h - x).abs() <= most)
+        let ends = [knot.station_m, profile.knots()[i + 1].station_m];
+        let goes_on = written.is_some_and(|(from, before)| {
+            ends.iter().all(|&station| {
+                let ([z, grade], [w, slope]) = (value(before, station - from), value(cubic, station - knot.station_m));
+                (z - w).abs() <= SAME_HEIGHT_M && (grade - slope).abs() <= SAME_GRADE
+            })
         });
         if goes_on {
             continue;
@@ -79,4 +82,9 @@ pub(super) fn write_elevation(xml: &mut Xml, profile: &Profile) {
         xml.empty("elevation", &[("s", &s), ("a", &a), ("b", &b), ("c", &c), ("d", &d)]);
     }
     xml.close("elevationProfile");
+}
+
+/// Height and grade of a cubic.
+fn value([a, b, c, d]: [f64; 4], s: f64) -> [f64; 2] {
+    [a + s * (b + s * (c + s * d)), b + s * (2.0 * c + 3.0 * d * s)]
 }

@@ -1,8 +1,8 @@
 //! Roads between intersections: which stretches of which paths they are, how they are linked, and their elements.
 
-use crate::drive::xml::{Xml, number};
 use super::{is_road, lanes, objects, plan};
 use crate::drive::export::DriveExport;
+use crate::drive::xml::{Xml, number};
 use fairpath_curve::Segment;
 use fairpath_drive::{Arm, Knot, PathId, PathResult, Profile, Results};
 use std::collections::BTreeMap;
@@ -80,7 +80,8 @@ impl<'a> Network<'a> {
 
     fn push(&mut self, (index, path): (usize, &'a Arc<PathResult>), range: [f64; 2], leads_to: [LeadsTo; 2]) {
         let whole = range == [0.0, path.path.length_m()];
-        let plan = if whole { Some(path.path.plan.as_ref().clone()) } else { path.path.plan.subspline(range[0], range[1]) };
+        let plan =
+            if whole { Some(path.path.plan.as_ref().clone()) } else { path.path.plan.subspline(range[0], range[1]) };
         // Stretches are longer than a millimetre and lie on their path.
         if let (Some(plan), Some(profile)) = (plan, profile_of(path, range)) {
             let id = self.next_id();

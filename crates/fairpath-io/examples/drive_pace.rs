@@ -1,0 +1,87 @@
+//! Prints how long editing takes: every path of a script is drawn over, in the middle third of it, a few metres aside, and what follows is worked out.
+//!
+//! ```sh
+//! cargo run --release -p fairpath-io --example drive_pace -- examples/drive/pass-road.json
+//! ```
+
+use std::error::Error;
+use std::path::Path;
+use std::time::Instant;
+
+use fairpath_curve::{Point, Vec2};
+use fairpath_drive::{Command, Document, SketchScale};
+use fairpath_io::{ReadOptions, ScriptCommand, TerrainFolder, read_drive_script};
+
+/// The middle third of a path, but no more of it than this, m.
+const LONGEST_M: f64 = 400.0;
+
+fn main() -> Result<(), Box<dyn Error>> {
+    for script in std::env::args().skip(1) {
+        pace(Path::new(&script))?;
+    }
+    Ok(())
+}
+
+fn pace(path: &Path) -> Result<(), Box<dyn Error>> {
+    let script = read_drive_script(path, &ReadOptions::default())?;
+    let files = TerrainFolder::beside(path);
+    let mut document = Document::new();
+    for command in script.commands {
+        let commands = match command {
+            ScriptCommand::Document(command) => vec![command],
+            ScriptCommand::Import(import) => {
+                let terrain = document.state().terrain.clone().ok_or("there is no terrain")?;
+                import.sketches(files.folder(), &terrain.field, terrain.georeference.as_ref())?.0
+            }
+        };
+        for command in commands {
+            document.run(command, &files)?;
+        }
+    }
+    let terrain = document.state().terrain.clone().ok_or("there is no terrain")?;
+    let (mut times, mut fits) = (Vec::new(), Vec::new());
+    for old in document.state().paths.clone() {
+        let length = old.length_m();
+        let extent = (length / 3.0).min(LONGEST_M);
+        let (from, count) = (0.5 * (length - extent), (extent / 4.0).ceil().max(8.0) as usize);
+        let points: Vec<Point> = (0..=count)
+            .map(|i| {
+                let t = i as f64 / count as f64;
+                let pose = old.plan.pose_at(from + t * extent);
+                let tangent = fairpath_curve::trig::unit(pose.heading);
+                let aside = 0.05 * extent * (16.0 * t * t * (1.0 - t) * (1.0 - t));
+                pose.point + Vec2::new(-tangent.y, tangent.x) * aside
+            })
+            .collect();
+        let points_m = points.iter().map(|p| [p.x, p.y]).collect();
+        let command = Command::Oversketch { points_m, path: Some(old.name.clone()), pixel_m: 1.0 };
+        let begun = Instant::now();
+        if document.run(command, &files).is_err() {
+            continue;
+        }
+        times.push(1e3 * begun.elapsed().as_secs_f64());
+        document.undo();
+        let scale = SketchScale { pixel_m: 1.0, min_radius_m: old.section.min_radius_m };
+        let begun = Instant::now();
+        let stroke = fairpath_fit::Stroke::new("s", scale.evened(&points));
+        let done = fairpath_fit::oversketch(&old.plan, &stroke, &scale.oversketching());
+        fits.push(1e3 * begun.elapsed().as_secs_f64());
+        drop(done);
+    }
+    times.sort_by(f64::total_cmp);
+    fits.sort_by(f64::total_cmp);
+    let at = |all: &[f64], share: f64| all.get((share * (all.len() - 1) as f64) as usize).copied().unwrap_or(f64::NAN);
+    let [columns, rows] = terrain.field.size();
+    println!(
+        "{}: terrain of {columns} × {rows}, {} paths; an edit takes {:.1} ms (median), {:.1} (90 of 100), {:.1} at most; of it the fit {:.1}, {:.1}, {:.1}",
+        path.display(),
+        document.state().paths.len(),
+        at(&times, 0.5),
+        at(&times, 0.9),
+        at(&times, 1.0),
+        at(&fits, 0.5),
+        at(&fits, 0.9),
+        at(&fits, 1.0),
+    );
+    Ok(())
+}
