@@ -1,11 +1,12 @@
 //! What the targets have in common.
 
 use fairpath_curve::{Point, Segment, Spline};
+use fairpath_drive::{Command, Document, NoFiles};
 use fairpath_fit::Stroke;
 use fairpath_io::{
-    RawLayout, RawSample, ReadOptions, SplineFormat, StrokeFormat, TemplateOptions, TerrainFormat, TerrainOptions,
-    WriteOptions, encode_splines, encode_strokes, encode_templates, longitude_latitude, read_splines_from,
-    read_strokes_from, read_templates_from, read_terrain_from,
+    RawLayout, RawSample, ReadOptions, ScriptCommand, SplineFormat, StrokeFormat, TemplateOptions, TerrainFormat,
+    TerrainOptions, WriteOptions, encode_project, encode_splines, encode_strokes, encode_templates, longitude_latitude,
+    read_drive_script_from, read_splines_from, read_strokes_from, read_templates_from, read_terrain_from,
 };
 use fairpath_sketch::{Answer, Job, run, run_encoded_job};
 
@@ -94,6 +95,37 @@ pub fn templates(bytes: &[u8]) {
     let back = read_templates_from(&json[..], "fuzz", &options).expect("our own JSON is read");
     // A set without a name is called like its file.
     assert_eq!(back.set, file.set);
+}
+
+/// Any bytes as a drive script: refused, or its commands are done or refused one by one, on a small terrain, and what follows does not depend on the way there.
+///
+/// # Panics
+/// When it does.
+pub fn drive_script(bytes: &[u8]) {
+    let mut options = ReadOptions::default();
+    options.limits.max_items = 12;
+    let Ok(script) = read_drive_script_from(bytes, "fuzz", &options) else { return };
+    let mut document = Document::new();
+    for command in script.commands {
+        let ScriptCommand::Document(mut command) = command else { continue };
+        match &mut command {
+            Command::Terrain(source) => source.size = Some(source.size.unwrap_or(65).min(129)),
+            // A long stroke only takes long.
+            Command::Sketch { points_m, .. } | Command::Oversketch { points_m, .. } => {
+                points_m.truncate(30);
+                points_m.retain(|p| p.iter().all(|x| x.abs() < 2e3));
+            }
+            _ => {}
+        }
+        let _ = document.run(command, &NoFiles);
+    }
+    if let Some(results) = document.results() {
+        assert!(document.results_anew().as_ref() == Some(results.as_ref()));
+        let bytes = encode_project(&document).expect("all numbers are finite");
+        while document.undo() {}
+        while document.redo() {}
+        assert!(encode_project(&document).expect("as before") == bytes);
+    }
 }
 
 /// Any bytes as a terrain: what its content tells, or, behind a first byte that says so, what could not be told. Read or refused; what was read is finite, within

@@ -37,7 +37,7 @@ const LAYERS: &[Layer] = &[
     Layer {
         name: "fairpath-drive",
         workspace: &["fairpath-curve", "fairpath-fit", "fairpath-shape"],
-        outside: Some(&["clarabel", "libm", "rstar", "schemars", "serde", "thiserror"]),
+        outside: Some(&["clarabel", "libm", "schemars", "serde", "thiserror"]),
     },
     Layer {
         name: "fairpath-io",

@@ -267,19 +267,20 @@ impl Profile {
         let [first, last] = self.range_m();
         let [from, to] = part.range_m();
         let (from, to) = (from.max(first), to.min(last));
-        let (before, after) = (from - transition_m.max(0.0), to + transition_m.max(0.0));
+        // Near an end there is less room for it.
+        let (before, after) = ((from - transition_m.max(0.0)).max(first), (to + transition_m.max(0.0)).min(last));
         let knot = |profile: &Self, station_m: f64| {
             let at = profile.at(station_m);
             Knot { station_m, height_m: at.height_m, grade: at.grade }
         };
         let mut knots: Vec<Knot> = self.knots.iter().copied().filter(|k| k.station_m < before).collect();
-        if before >= first && before < from {
+        if before < from {
             knots.push(knot(self, before));
         }
         knots.push(knot(part, from));
         knots.extend(part.knots.iter().copied().filter(|k| k.station_m > from && k.station_m < to));
         knots.push(knot(part, to));
-        if after <= last && after > to {
+        if after > to {
             knots.push(knot(self, after));
         }
         knots.extend(self.knots.iter().copied().filter(|k| k.station_m > after));

@@ -119,3 +119,20 @@ fn roads_that_meet_have_one_height_and_ways_in_all_directions() {
         }
     }
 }
+
+#[test]
+fn what_was_said_about_a_crossing_holds_for_the_part_that_it_is_on() {
+    let [a, b, _] = triangle();
+    let document = document(&[
+        HILLS,
+        a,
+        b,
+        r#"{"do":"crossing","near_m":[300,300],"set":"over","path":"b"}"#,
+        r#"{"do":"split","path":"b","at_m":20.0}"#,
+        r#"{"do":"split","path":"a","at_m":300.0}"#,
+    ]);
+    let results = document.results().unwrap();
+    assert_eq!(results.paths.len(), 4);
+    let over: Vec<Meeting> = results.crossings.iter().filter(|c| !c.at_end).map(|c| c.meeting).collect();
+    assert!(over.len() == 1 && over[0] != Meeting::Level, "{:?}", results.crossings);
+}

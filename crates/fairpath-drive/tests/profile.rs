@@ -187,3 +187,14 @@ proptest! {
         }
     }
 }
+
+#[test]
+fn a_part_near_an_end_leaves_the_profile_whole() {
+    let ground = Profile::catmull_rom(&[[0.0, 5.0], [50.0, 6.0], [100.0, 4.0]]).unwrap();
+    let part = Profile::catmull_rom(&[[20.0, 9.0], [40.0, 9.5]]).unwrap();
+    let with = ground.with_part(&part, 60.0).unwrap();
+    assert_eq!(with.range_m(), [0.0, 100.0]);
+    for (station, height) in [(0.0, 5.0), (20.0, 9.0), (40.0, 9.5), (100.0, 4.0)] {
+        assert!((with.at(station).height_m - height).abs() < 1e-12, "at {station}");
+    }
+}

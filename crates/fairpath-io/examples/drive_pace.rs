@@ -1,4 +1,4 @@
-//! Prints how long editing takes: every path of a script is drawn over, in the middle third of it, a few metres aside, and what follows is worked out.
+//! Prints how long editing takes: every path of a script is drawn over, in the middle third of it, a few metres aside, and what follows is worked out: heights, ground, signs, trees.
 //!
 //! ```sh
 //! cargo run --release -p fairpath-io --example drive_pace -- examples/drive/pass-road.json
@@ -9,8 +9,11 @@ use std::path::Path;
 use std::time::Instant;
 
 use fairpath_curve::{Point, Vec2};
-use fairpath_drive::{Command, Document, SketchScale};
+use fairpath_drive::{Command, Document, HeightMode, SketchScale};
 use fairpath_io::{ReadOptions, ScriptCommand, TerrainFolder, read_drive_script};
+
+/// Size of a pixel of the strokes, m, as the example scripts have it.
+const PIXEL_M: f64 = 2.0;
 
 /// The middle third of a path, but no more of it than this, m.
 const LONGEST_M: f64 = 400.0;
@@ -38,6 +41,16 @@ fn pace(path: &Path) -> Result<(), Box<dyn Error>> {
             document.run(command, &files)?;
         }
     }
+    // Once as all paths are drawn, fair, and once as the script has them.
+    let as_it_is = document.state().paths.iter().any(|p| p.heights == HeightMode::Engineered);
+    if as_it_is {
+        measured(&mut document, &files, path, "engineered")?;
+    }
+    document.run(Command::Heights { path: None, mode: HeightMode::Fair }, &files)?;
+    measured(&mut document, &files, path, "fair")
+}
+
+fn measured(document: &mut Document, files: &TerrainFolder, path: &Path, mode: &str) -> Result<(), Box<dyn Error>> {
     let terrain = document.state().terrain.clone().ok_or("there is no terrain")?;
     let (mut times, mut fits) = (Vec::new(), Vec::new());
     for old in document.state().paths.clone() {
@@ -54,14 +67,14 @@ fn pace(path: &Path) -> Result<(), Box<dyn Error>> {
             })
             .collect();
         let points_m = points.iter().map(|p| [p.x, p.y]).collect();
-        let command = Command::Oversketch { points_m, path: Some(old.name.clone()), pixel_m: 1.0 };
+        let command = Command::Oversketch { points_m, path: Some(old.name.clone()), pixel_m: PIXEL_M };
         let begun = Instant::now();
-        if document.run(command, &files).is_err() {
+        if document.run(command, files).is_err() {
             continue;
         }
         times.push(1e3 * begun.elapsed().as_secs_f64());
         document.undo();
-        let scale = SketchScale { pixel_m: 1.0, min_radius_m: old.section.min_radius_m };
+        let scale = SketchScale { pixel_m: PIXEL_M, min_radius_m: old.section.min_radius_m };
         let begun = Instant::now();
         let stroke = fairpath_fit::Stroke::new("s", scale.evened(&points));
         let done = fairpath_fit::oversketch(&old.plan, &stroke, &scale.oversketching());
@@ -73,7 +86,7 @@ fn pace(path: &Path) -> Result<(), Box<dyn Error>> {
     let at = |all: &[f64], share: f64| all.get((share * (all.len() - 1) as f64) as usize).copied().unwrap_or(f64::NAN);
     let [columns, rows] = terrain.field.size();
     println!(
-        "{}: terrain of {columns} × {rows}, {} paths; an edit takes {:.1} ms (median), {:.1} (90 of 100), {:.1} at most; of it the fit {:.1}, {:.1}, {:.1}",
+        "{}, {mode}: terrain of {columns} × {rows}, {} paths; an edit takes {:.1} ms (median), {:.1} (90 of 100), {:.1} at most; of it the fit {:.1}, {:.1}, {:.1}",
         path.display(),
         document.state().paths.len(),
         at(&times, 0.5),

@@ -81,7 +81,8 @@ pub use atomic::write_whole;
 pub use comparison::{ComparedMethod, Comparison, MethodSummary};
 pub use drive::{
     DriveExport, DriveProject, DriveScript, ExportFormat, PathSummary, ScriptCommand, TerrainFolder, encode_drive,
-    encode_moments, encode_project, is_project, read_drive_script, read_drive_script_from, read_project, summaries,
+    encode_earthwork, encode_moments, encode_project, is_project, read_drive_script, read_drive_script_from,
+    read_project, summaries,
 };
 pub use edits::{Edit, Through, read_edits, read_edits_from};
 pub use error::Error;

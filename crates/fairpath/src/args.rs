@@ -345,6 +345,8 @@ pub enum DriveVerb {
     Run(DriveRunArgs),
     /// List what breaks the rules of design in a project
     Check(DriveCheckArgs),
+    /// Volumes of cut and fill along a path, and what is to be hauled, as CSV
+    Earthwork(DriveEarthworkArgs),
     /// Drive along a path: where the vehicle is, how it heads and how fast it is, over time, as CSV
     Play(DrivePlayArgs),
 }
@@ -415,6 +417,27 @@ pub struct DrivePlayArgs {
     /// Also tell where this camera stands and what it looks at
     #[arg(long, value_name = "CAMERA")]
     pub camera: Option<CameraName>,
+
+    /// Where the table goes; standard output by default
+    #[arg(short, long, value_name = "FILE", default_value = "-")]
+    pub output: PathBuf,
+}
+
+/// Arguments of `fairpath drive earthwork`.
+#[derive(Args, Debug)]
+#[command(after_help = EXIT_CODES)]
+pub struct DriveEarthworkArgs {
+    /// The project, or a script
+    #[arg(value_name = "PROJECT")]
+    pub project: PathBuf,
+
+    /// Only this path
+    #[arg(long, value_name = "NAME")]
+    pub path: Option<String>,
+
+    /// Metres from one row to the next
+    #[arg(long, value_name = "M", default_value_t = 20.0)]
+    pub every: f64,
 
     /// Where the table goes; standard output by default
     #[arg(short, long, value_name = "FILE", default_value = "-")]

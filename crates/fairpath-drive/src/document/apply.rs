@@ -455,6 +455,17 @@ fn in_parts(next: &mut State, at: usize, parts: Vec<Spline>) -> Vec<PathId> {
             next.paths.push(Arc::new(part));
         }
     }
+    // What was said about a crossing of the whole holds for the part that it is on now.
+    if ids.len() > 1 && next.choices.iter().any(|c| c.first == whole.id || c.second == whole.id) {
+        let said = |c: &Choice| -> Vec<Choice> {
+            let of = |id: PathId| if id == whole.id { ids.clone() } else { vec![id] };
+            of(c.first)
+                .into_iter()
+                .flat_map(|first| of(c.second).into_iter().map(move |second| Choice { first, second, ..*c }))
+                .collect()
+        };
+        next.choices = Arc::new(next.choices.iter().flat_map(said).collect());
+    }
     ids
 }
 

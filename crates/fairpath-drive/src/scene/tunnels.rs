@@ -19,6 +19,9 @@ const WALL_M: f64 = 0.8;
 /// Width of the portal's face beside the opening and above it, m.
 const FACE_M: f64 = 2.5;
 
+/// A tunnel's portal stands this far in front of where the ground closes over it, m.
+const PORTAL_M: f64 = 4.0;
+
 /// From lamp to lamp, m.
 const LAMP_M: f64 = 12.0;
 
@@ -27,7 +30,9 @@ pub(super) fn add(scene: &mut Scene, path: &PathResult) {
     let mut mesh = Mesh::default();
     let mut lamps = Vec::new();
     for tunnel in path.structures.iter().filter(|s| s.carrier == Carrier::Tunnel) {
-        let run = sections_within(&path.sections, [tunnel.from_m, tunnel.to_m]);
+        // The portals stand in front, where the ground is cut already: the step in the ground is behind them.
+        let (from, to) = ((tunnel.from_m - PORTAL_M).max(0.0), (tunnel.to_m + PORTAL_M).min(path.path.length_m()));
+        let run = sections_within(&path.sections, [from, to]);
         if run.len() < 2 {
             continue;
         }
@@ -37,8 +42,8 @@ pub(super) fn add(scene: &mut Scene, path: &PathResult) {
         for pair in outline.windows(2) {
             band(&mut mesh, &line(pair[0]), &line(pair[1]));
         }
-        portal(&mut mesh, &run[0], &outline, true);
-        portal(&mut mesh, &run[run.len() - 1], &outline, false);
+        portal(&mut mesh, &run[0], &outline);
+        portal(&mut mesh, &run[run.len() - 1], &outline);
         let top = outline.iter().map(|p| p[1]).fold(0.0, f64::max);
         let count = ((tunnel.to_m - tunnel.from_m) / LAMP_M).floor().max(1.0) as usize;
         for k in 0..count {
@@ -75,13 +80,13 @@ fn vault([left, right]: [f64; 2], clearance_m: f64) -> Vec<[f64; 2]> {
 }
 
 /// The face around the opening.
-fn portal(mesh: &mut Mesh, section: &CrossSection, outline: &[[f64; 2]], backward: bool) {
+fn portal(mesh: &mut Mesh, section: &CrossSection, outline: &[[f64; 2]]) {
     let top = outline.iter().map(|p| p[1]).fold(0.0, f64::max) + FACE_M;
     let (right, left) = (outline[0][0] - FACE_M, outline[outline.len() - 1][0] + FACE_M);
     let at = |[l, up]: [f64; 2]| beside(section, l, up);
     let mut face = |corners: [[f64; 2]; 4]| {
         let [a, b, c, d] = corners.map(at);
-        // Counterclockwise as seen by those who come out of the tunnel at its end, or in at its start.
+        // Seen from both sides.
         quad(mesh, [a, b, c, d]);
         quad(mesh, [d, c, b, a]);
     };
@@ -92,5 +97,4 @@ fn portal(mesh: &mut Mesh, section: &CrossSection, outline: &[[f64; 2]], backwar
     let (first, last) = (outline[0], outline[outline.len() - 1]);
     face([[right, -1.0], [first[0], -1.0], [first[0], top], [right, top]]);
     face([[last[0], -1.0], [left, -1.0], [left, top], [last[0], top]]);
-    let _ = backward;
 }

@@ -2,7 +2,7 @@
 
 use super::export::DriveExport;
 use crate::error::Error;
-use fairpath_drive::{CameraTrack, Carrier, CrossSection, Drive, PathResult};
+use fairpath_drive::{CameraTrack, Carrier, CrossSection, Drive, PathResult, Results, mass_haul};
 
 /// Rows are no further apart, m; at joins of the plan and at ends of bridges and tunnels there are rows besides.
 const EVERY_M: f64 = 10.0;
@@ -65,6 +65,25 @@ pub(super) fn write(export: &DriveExport<'_>) -> Result<Vec<u8>, Error> {
         place: "the table of stations".to_owned(),
         problem: e.to_string(),
     })
+}
+
+/// The mass-haul table of all paths, or of one: cut and fill by average end areas for every so many metres, and what has come together until then.
+///
+/// # Errors
+/// Never for results of documents; the type is that of other writers.
+pub fn encode_earthwork(results: &Results, path: Option<&str>, every_m: f64) -> Result<Vec<u8>, Error> {
+    let mut writer = ::csv::Writer::from_writer(Vec::new());
+    let unwritable = |problem: String| Error::Unwritable { format: "CSV", place: "the earthwork".to_owned(), problem };
+    let head = ["path", "from_m", "to_m", "cut_m3", "fill_m3", "ordinate_m3"];
+    writer.write_record(head).map_err(|e| unwritable(e.to_string()))?;
+    for result in results.paths.iter().filter(|p| path.is_none_or(|name| p.path.name == name)) {
+        for row in mass_haul(&result.sections, every_m) {
+            let numbers = [row.from_m, row.to_m, row.cut_m3, row.fill_m3, row.ordinate_m3].map(|x| x.to_string());
+            let cells = std::iter::once(&result.path.name).chain(&numbers);
+            writer.write_record(cells).map_err(|e| unwritable(e.to_string()))?;
+        }
+    }
+    writer.into_inner().map_err(|e| unwritable(e.to_string()))
 }
 
 /// Where a vehicle is over time, with a camera that goes along if one is given.

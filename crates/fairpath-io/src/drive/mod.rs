@@ -13,7 +13,7 @@ mod script;
 mod summary;
 mod xml;
 
-pub use csv::encode_moments;
+pub use csv::{encode_earthwork, encode_moments};
 pub use export::{DriveExport, ExportFormat, encode_drive};
 pub use files::TerrainFolder;
 pub use project::{DriveProject, encode_project, is_project, read_project};

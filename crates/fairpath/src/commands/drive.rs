@@ -6,12 +6,12 @@ use std::time::Instant;
 use anyhow::{Context, Result, bail};
 use fairpath_drive::{Breach, CameraTrack, Command, Document, Results, State};
 use fairpath_io::{
-    DriveExport, ExportFormat, PathSummary, ReadOptions, ScriptCommand, TerrainFolder, encode_drive, encode_moments,
-    encode_project, is_project, read_drive_script, read_project, summaries,
+    DriveExport, ExportFormat, PathSummary, ReadOptions, ScriptCommand, TerrainFolder, encode_drive, encode_earthwork,
+    encode_moments, encode_project, is_project, read_drive_script, read_project, summaries,
 };
 
 use super::Ending;
-use crate::args::{CameraName, DriveArgs, DriveCheckArgs, DrivePlayArgs, DriveRunArgs, DriveVerb};
+use crate::args::{CameraName, DriveArgs, DriveCheckArgs, DriveEarthworkArgs, DrivePlayArgs, DriveRunArgs, DriveVerb};
 use crate::interrupt;
 use crate::output::{Ready, check_place};
 use crate::printer::{Printer, columns};
@@ -20,6 +20,7 @@ pub(crate) fn run(args: &DriveArgs, printer: &mut Printer) -> Result<Ending> {
     match &args.verb {
         DriveVerb::Run(args) => run_script(args, printer),
         DriveVerb::Check(args) => check(args, printer),
+        DriveVerb::Earthwork(args) => earthwork(args, printer),
         DriveVerb::Play(args) => play(args, printer),
     }
 }
@@ -73,14 +74,35 @@ fn check(args: &DriveCheckArgs, printer: &mut Printer) -> Result<Ending> {
     Ok(if broken && args.strict { Ending::SomeFailed } else { Ending::Done })
 }
 
+fn earthwork(args: &DriveEarthworkArgs, printer: &mut Printer) -> Result<Ending> {
+    check_place(&args.output)?;
+    if !(0.1..=1e6).contains(&args.every) {
+        bail!("--every {}: rows can be 0.1 to 1000000 m apart", args.every);
+    }
+    interrupt::install();
+    let document = opened(&args.project, false, printer)?;
+    let (state, results) = laid(&document, &args.project)?;
+    if let Some(name) = args.path.as_deref().filter(|name| state.path(name).is_none()) {
+        return Err(no_path(state, &args.project, name));
+    }
+    let mut ready = Ready::default();
+    ready.add(&args.output, encode_earthwork(results, args.path.as_deref(), args.every)?);
+    ready.write()?;
+    Ok(Ending::Done)
+}
+
+fn no_path(state: &State, file: &Path, name: &str) -> anyhow::Error {
+    let known: Vec<&str> = state.paths.iter().map(|p| p.name.as_str()).collect();
+    anyhow::anyhow!("{}: there is no path {name:?}; there are {}", file.display(), known.join(", "))
+}
+
 fn play(args: &DrivePlayArgs, printer: &mut Printer) -> Result<Ending> {
     check_place(&args.output)?;
     interrupt::install();
     let document = opened(&args.project, false, printer)?;
     let (state, results) = laid(&document, &args.project)?;
     let Some(path) = state.path(&args.path) else {
-        let known: Vec<&str> = state.paths.iter().map(|p| p.name.as_str()).collect();
-        bail!("{}: there is no path {:?}; there are {}", args.project.display(), args.path, known.join(", "));
+        return Err(no_path(state, &args.project, &args.path));
     };
     let to = args.to.unwrap_or(path.length_m());
     let drive = fairpath_drive::drive(results, path.id, [args.from, to], args.on, args.step)?;

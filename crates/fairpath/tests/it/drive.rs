@@ -96,6 +96,20 @@ fn a_drive_is_told_over_time() {
 }
 
 #[test]
+fn earthwork_adds_up_to_the_table() {
+    let folder = tempdir().unwrap();
+    script(folder.path());
+    let rows = ran(folder.path(), &["drive", "earthwork", "roads.json", "--path", "a", "--every", "50"]).ended(0);
+    let rows: Vec<Vec<&str>> = rows.text().lines().skip(1).map(|line| line.split(',').collect()).collect();
+    let sum = |i: usize| rows.iter().map(|row| row[i].parse::<f64>().unwrap()).sum::<f64>();
+    let table = ran(folder.path(), &["drive", "run", "roads.json"]).ended(0);
+    let cells: Vec<&str> = table.text().lines().nth(1).unwrap().split_whitespace().collect();
+    // path, length, curves, radius, grade, lowest, highest, cut, fill
+    assert!(rows.len() > 10 && rows.iter().all(|row| row[0] == "a"));
+    assert_eq!([sum(3), sum(4)].map(|x| format!("{x:.0}")), [cells[7], cells[8]]);
+}
+
+#[test]
 fn bad_scripts_are_refused_by_place_and_nothing_is_written() {
     let folder = tempdir().unwrap();
     let head = r#"{"format":"fairpath-drive-script","version":1,"commands":["#;
