@@ -8,8 +8,8 @@ use fairpath_curve::{Continuity, Point, Segment, Similarity, Spline, Vec2};
 use fairpath_fit::{Fit, FitError, Report, Warning};
 use fairpath_io::{
     Encoded, Error, Failure, Milliseconds, ReadOptions, SplineEntry, SplineFile, SplineFormat, Unit, UsedPiece,
-    UsedTemplates, WriteOptions, YAxis, edits_schema, encode_splines, read_splines_from, read_strokes_from,
-    spline_schema, strokes_schema, templates_schema, write_splines, write_whole,
+    UsedTemplates, WriteOptions, YAxis, drive_script_schema, edits_schema, encode_splines, read_splines_from,
+    read_strokes_from, spline_schema, strokes_schema, templates_schema, write_splines, write_whole,
 };
 use std::path::Path;
 

@@ -29,7 +29,9 @@ pub(super) fn add(scene: &mut Scene, state: &State, results: &Results, options: 
     for j in 0..chunks[1] {
         for i in 0..chunks[0] {
             let far = distance([i, j]);
-            levels.push(if beside([i, j]) {
+            levels.push(if !options.natural {
+                None
+            } else if beside([i, j]) {
                 Some(0)
             } else if far > options.margin_m {
                 None
@@ -44,7 +46,7 @@ pub(super) fn add(scene: &mut Scene, state: &State, results: &Results, options: 
     let mut mesh = Mesh::default();
     for j in 0..chunks[1] {
         for i in 0..chunks[0] {
-            let Some(own) = level(i, j) else { continue };
+            let Some(own) = level(i, j).filter(|_| options.natural) else { continue };
             let of = |i: Option<usize>, j: Option<usize>| match (i, j) {
                 (Some(i), Some(j)) if i < chunks[0] && j < chunks[1] => level(i, j).unwrap_or(own),
                 _ => own,
@@ -60,7 +62,9 @@ pub(super) fn add(scene: &mut Scene, state: &State, results: &Results, options: 
             append(&mut mesh, &chunk, |t| !here || !is_shaped(natural, &shaped, &chunk, t));
         }
     }
-    scene.part("terrain", Finish::Ground, mesh);
+    if options.natural {
+        scene.part("terrain", Finish::Ground, mesh);
+    }
     let (mut wild, mut worked) = (Mesh::default(), Mesh::default());
     for (cell, samples) in &shaped {
         refined(ground, *cell, samples, &mut wild, &mut worked);
@@ -182,6 +186,8 @@ fn refined(ground: &Ground, cell: [usize; 2], samples: &[[usize; 2]], wild: &mut
         at(i1 + 1, j1 + 1) + at(i0, j0) - at(i0, j1 + 1) - at(i1 + 1, j0)
     };
     let origin = [cell[0] * parts, cell[1] * parts];
+    // Which vertex each sample has become, of what was shaped and of what was not.
+    let mut numbers = [vec![u32::MAX; side * side], vec![u32::MAX; side * side]];
     let mut blocks = vec![([0, 0], parts)];
     while let Some(([i, j], size)) = blocks.pop() {
         let shaped = count([i, j], [i + size, j + size]) > 0;
@@ -192,22 +198,29 @@ fn refined(ground: &Ground, cell: [usize; 2], samples: &[[usize; 2]], wild: &mut
             }
             continue;
         }
-        let mesh = if shaped { &mut *worked } else { &mut *wild };
-        let corner = |di: usize, dj: usize| vertex(ground, [origin[0] + i + di, origin[1] + j + dj], size);
-        let corners = [corner(0, 0), corner(size, 0), corner(size, size), corner(0, size)];
-        let first = mesh.vertices.len() as u32;
-        mesh.vertices.extend(corners.map(|c| c.0));
-        mesh.normals.extend(corners.map(|c| c.1));
-        mesh.triangles.extend([[first, first + 1, first + 2], [first, first + 2, first + 3]]);
+        let (mesh, numbers) = if shaped { (&mut *worked, &mut numbers[0]) } else { (&mut *wild, &mut numbers[1]) };
+        let mut corner = |di: usize, dj: usize| {
+            let (i, j) = (i + di, j + dj);
+            let number = &mut numbers[j * side + i];
+            if *number == u32::MAX {
+                *number = mesh.vertices.len() as u32;
+                let (place, normal) = vertex(ground, [origin[0] + i, origin[1] + j]);
+                mesh.vertices.push(place);
+                mesh.normals.push(normal);
+            }
+            *number
+        };
+        let [a, b, c, d] = [corner(0, 0), corner(size, 0), corner(size, size), corner(0, size)];
+        mesh.triangles.extend([[a, b, c], [a, c, d]]);
     }
 }
 
-/// A sample of the fine grid as a vertex with its normal, by the slopes over `reach` samples to all sides.
-fn vertex(ground: &Ground, at: [usize; 2], reach: usize) -> (P3, P3) {
+/// A sample of the fine grid as a vertex with its normal, by the slopes to all sides.
+fn vertex(ground: &Ground, at: [usize; 2]) -> (P3, P3) {
     let grid = ground.grid();
     let (size, step) = (grid.size(), grid.spacing_m());
     let place = grid.place(at);
-    let around = |k: usize, count: usize| (k.saturating_sub(reach), (k + reach).min(count - 1));
+    let around = |k: usize, count: usize| (k.saturating_sub(1), (k + 1).min(count - 1));
     let ((w, e), (s, n)) = (around(at[0], size[0]), around(at[1], size[1]));
     let x = (ground.sample([w, at[1]]) - ground.sample([e, at[1]])) / ((e - w) as f64 * step.x);
     let y = (ground.sample([at[0], s]) - ground.sample([at[0], n])) / ((n - s) as f64 * step.y);

@@ -93,11 +93,13 @@ pub struct SceneOptions {
     pub coarseness: f64,
     /// Beyond this distance from all paths there is no ground, m; infinite for all of it.
     pub margin_m: f64,
+    /// Whether there is natural ground at all, beside the cells of the terrain in which it was shaped.
+    pub natural: bool,
 }
 
 impl Default for SceneOptions {
     fn default() -> Self {
-        Self { coarseness: 0.005, margin_m: f64::INFINITY }
+        Self { coarseness: 0.005, margin_m: f64::INFINITY, natural: true }
     }
 }
 

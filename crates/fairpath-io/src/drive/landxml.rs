@@ -1,4 +1,4 @@
-//! LandXML 1.2: each path as an alignment of lines, curves and spirals with its profile of parabolas, and the finished ground near the paths as a surface.
+//! LandXML 1.2: each path as an alignment of lines, curves and spirals with its profile of parabolas, and the finished ground, in the cells of the terrain in which it was shaped, as a surface.
 //!
 //! Reference: LandXML.org, "LandXML 1.2 schema" (2008). Points are northing, easting and elevation. With a georeference northings and eastings are those of its projection.
 
@@ -8,9 +8,6 @@ use crate::error::Error;
 use fairpath_curve::{Kind, Point, Segment, trig};
 use fairpath_drive::{Finish, Profile, Scene, SceneOptions};
 use std::f64::consts::FRAC_PI_2;
-
-/// The ground further than this from all paths stays out, m.
-const MARGIN_M: f64 = 30.0;
 
 /// Spirals that turn further are cut in two, so that their tangents meet between their ends.
 const WIDEST_TURN: f64 = FRAC_PI_2;
@@ -188,7 +185,7 @@ fn profile(xml: &mut Xml, name: &str, profile: &Profile) {
 }
 
 fn surface(xml: &mut Xml, export: &DriveExport<'_>, origin: [f64; 2]) {
-    let options = SceneOptions { margin_m: MARGIN_M, coarseness: 0.0 };
+    let options = SceneOptions { natural: false, ..SceneOptions::default() };
     let scene = Scene::ground(export.state, export.results, &options);
     let parts: Vec<_> = scene.parts.iter().filter(|p| p.finish != Finish::Water).collect();
     if parts.is_empty() {
