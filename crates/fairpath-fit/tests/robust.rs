@@ -338,6 +338,25 @@ fn a_million_points_are_fitted_with_work_that_grows_with_the_curve_only() {
     assert!(dense.report.max_deviation < 5.0 && !dense.spline.is_closed());
 }
 
+#[test]
+fn no_piece_bends_to_less_than_the_least_radius() {
+    // Up, round a bend of 5 px, and down again; then a wave.
+    let leg = (0..40).map(|i| (0.0, f64::from(i) * 3.0));
+    let bend = (0..=12)
+        .map(|i| std::f64::consts::PI * (1.0 - f64::from(i) / 12.0))
+        .map(|a| (5.0 + 5.0 * a.cos(), 120.0 + 5.0 * a.sin()));
+    let back = (0..40).map(|i| (10.0 + 8.0 * (f64::from(i) / 4.0).sin(), 117.0 - f64::from(i) * 3.0));
+    let hairpin = stroke("hairpin", leg.chain(bend).chain(back));
+    for min_radius in [1.0, 8.0, 12.0, 20.0] {
+        let options = FitOptions { min_radius, corner_score: 1e9, ..FitOptions::default() };
+        let fit = fitted(&hairpin, &options);
+        let sharpest = fit.spline.segments().iter().map(|s| s.kappa0.abs().max(s.kappa1.abs())).fold(0.0, f64::max);
+        assert!(sharpest <= (1.0 + 1e-9) / min_radius, "{} for {min_radius}", 1.0 / sharpest);
+        // The others have to be paid for by leaving the stroke.
+        assert!(min_radius > 1.0 || fit.report.max_deviation < 5.0, "{:?}", fit.report);
+    }
+}
+
 // ---- options ------------------------------------------------------------------------------------------------------
 
 type Setter = (&'static str, fn(&mut FitOptions, f64));
@@ -355,7 +374,7 @@ macro_rules! setters {
 fn setters() -> Vec<Setter> {
     setters!(
         numbers: pixel_size, closing_gap, corner_angle, corner_score, corner_share, corner_noise, corner_radius,
-            corner_window, corner_distance, sampling_falloff, points_per_circle, min_sampling, max_sampling, curvature_window, max_error,
+            corner_window, corner_distance, min_radius, sampling_falloff, points_per_circle, min_sampling, max_sampling, curvature_window, max_error,
             end_factor, sample_share, error_cost, free_error, shortness_cost, short_length, free_share, inflection_cost,
             transition_peak, max_join_error;
         costs: line_cost, arc_cost, clothoid_cost, g0_cost, g1_cost, g2_cost;

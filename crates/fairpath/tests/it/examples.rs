@@ -104,6 +104,9 @@ fn every_command_of_the_readme_runs() {
     for (input, _) in INPUTS {
         fs::copy(root().join("examples").join(input), folder.path().join("examples").join(input)).unwrap();
     }
+    fs::create_dir(folder.path().join("examples/drive")).unwrap();
+    let network = "examples/drive/interchange.json";
+    fs::copy(root().join(network), folder.path().join(network)).unwrap();
     let readme = fs::read_to_string(root().join("README.md")).unwrap();
     let code = readme.split("```sh").skip(1).filter_map(|rest| rest.split("```").next());
     let mut count = 0;
@@ -118,7 +121,7 @@ fn every_command_of_the_readme_runs() {
         count += 1;
     }
     assert!(count >= 8, "only {count} commands were found");
-    for written in ["hello.svg", "leaf.dxf", "hello.json", "comb.svg", "steps"] {
+    for written in ["hello.svg", "leaf.dxf", "hello.json", "comb.svg", "steps", "interchange.glb", "interchange.xodr"] {
         assert!(folder.path().join(written).exists(), "{written}");
     }
 }
