@@ -20,7 +20,7 @@ import maliput.plugin as plugin
 
 LINEAR_M, ANGULAR_RAD = 0.05, 0.01
 # Points along each lane lie no further apart than this, m, and there are 17 at least.
-APART_M, PIECES = 2.0, 16
+APART_M, PIECES = 5.0, 16
 faults = []
 
 

@@ -37,13 +37,17 @@ pub(super) fn sumo(file: &Path, scratch: &Path) -> Result<Verdict> {
     if network.exists() {
         fs::remove_file(&network).with_context(|| format!("cannot remove {}", network.display()))?;
     }
-    let mut netconvert = Command::new(tools::roads_python()?.with_file_name("netconvert"));
-    netconvert.arg("--opendrive-files").arg(file).arg("--output-file").arg(&network);
+    let mut netconvert = Command::new(tools::roads_python()?);
+    netconvert.args(["-c", NETCONVERT]).arg("--opendrive-files").arg(file).arg("--output-file").arg(&network);
     let ran = process::capture_within(&mut netconvert, PATIENCE)?;
     let network = fs::read_to_string(&network).unwrap_or_default();
     let text = fs::read_to_string(file).unwrap_or_default();
     verdict_of_sumo(&ran, &network, text.contains("type=\"driving\""))
 }
+
+/// Starts netconvert where its package keeps it: the starter beside Python names the place where it was installed, and a cache may be moved.
+const NETCONVERT: &str =
+    "import os, sys, sumo; os.execv(os.path.join(sumo.SUMO_HOME, 'bin', 'netconvert'), ['netconvert'] + sys.argv[1:])";
 
 /// `is_driven`: whether the file has a lane that cars drive on, without which SUMO may find nothing in it.
 fn verdict_of_sumo(ran: &Ran, network: &str, is_driven: bool) -> Result<Verdict> {
