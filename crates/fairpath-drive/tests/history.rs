@@ -1,5 +1,6 @@
 //! Documents over time: what follows from a state does not depend on how it was reached, and undoing and doing again lead to the same bits.
 
+use fairpath_curve::Point;
 use fairpath_drive::{
     Carrier, Command, Crossing, CrossingSet, Document, DrawnHeights, HeightMode, Landscape, NoFiles, PathId, PathPlace,
     Section, SketchAs, Soil, Structure, StructureLimits, TerrainSource, pillars,
@@ -170,6 +171,13 @@ fn is_sound(document: &Document, seed: u64) {
                 "{bridge:?}"
             );
         }
+    }
+    let mut trees: Vec<Point> = results.trees.values().flat_map(|t| t.iter()).map(|t| t.place).collect();
+    trees.sort_by(|a, b| a.x.total_cmp(&b.x));
+    for (i, tree) in trees.iter().enumerate() {
+        let near = trees[i + 1..].iter().take_while(|other| other.x - tree.x < 4.5);
+        let least = near.map(|other| (*other - *tree).hypot2().sqrt()).fold(f64::INFINITY, f64::min);
+        assert!(least >= 4.5, "seed {seed}: two trees {least} m apart");
     }
     for tree in results.trees.values().flat_map(|t| t.iter()) {
         assert!(!waters.covers(tree.place, tree.foot_m), "seed {seed}: a tree in the water");

@@ -46,31 +46,47 @@ pub(crate) fn trees_on(
     let [low, high] = tile_box(grid, tile);
     let origin = ground.natural().corner();
     let cell = |x: f64, from: f64| ((x - from) / APART_M).floor() as i64;
+    let first = [cell(low.x, origin.x) - 1, cell(low.y, origin.y) - 1];
+    let size = [cell(high.x, origin.x) - first[0] + 2, cell(high.y, origin.y) - first[1] + 2].map(|n| n as usize);
+    // The lots of all cells on the tile and of one more around it.
+    let lots: Vec<Lot> = (0..size[0] * size[1])
+        .flat_map(|k| {
+            let at = [first[0] + (k % size[0]) as i64, first[1] + (k / size[0]) as i64];
+            (0..LOTS).map(move |lot| Lot::new(at, lot, seed, origin))
+        })
+        .collect();
+    let of_cell = |column: usize, row: usize| {
+        let from = (row * size[0] + column) * LOTS as usize;
+        &lots[from..from + LOTS as usize]
+    };
     let mut found = Vec::new();
-    let regions: Vec<&Arc<FoliageRegion>> = regions.iter().collect();
-    for row in cell(low.y, origin.y)..=cell(high.y, origin.y) {
-        for column in cell(low.x, origin.x)..=cell(high.x, origin.x) {
-            for lot in 0..LOTS {
-                let own = Lot::new([column, row], lot, seed, origin);
+    for row in 1..size[1] - 1 {
+        for column in 1..size[0] - 1 {
+            for own in of_cell(column, row) {
                 let here = own.place.x >= low.x && own.place.x < high.x && own.place.y >= low.y && own.place.y < high.y;
                 if !here || !ground.natural().contains(own.place) {
                     continue;
                 }
-                let density = density_at(&regions, own.place);
-                if !(own.wish < density) || !own.wins(seed, origin) {
+                let around = (row - 1..=row + 1).flat_map(|r| (column - 1..=column + 1).map(move |c| (c, r)));
+                let beats_own =
+                    |other: &Lot| other.rank > own.rank && (other.place - own.place).hypot2() < APART_M * APART_M;
+                if around.into_iter().any(|(c, r)| of_cell(c, r).iter().any(beats_own)) {
+                    continue;
+                }
+                if !(own.wish < density_at(regions, own.place)) {
                     continue;
                 }
                 let foot_m = ground.height(own.place);
-                let wet = waters.covers(own.place, foot_m - 0.3);
-                if wet || is_blocked(grid, corridors, own.place) {
+                if waters.covers(own.place, foot_m - 0.3) || is_blocked(grid, corridors, own.place) {
                     continue;
                 }
+                let [size, turn, kind] = own.looks();
                 found.push(Tree {
                     place: own.place,
                     foot_m,
-                    size: 0.7 + 0.6 * own.size,
-                    turn_rad: std::f64::consts::TAU * own.turn,
-                    kind: (own.kind * 3.0) as u8,
+                    size: 0.7 + 0.6 * size,
+                    turn_rad: std::f64::consts::TAU * turn,
+                    kind: (kind * 3.0) as u8,
                 });
             }
         }
@@ -99,7 +115,7 @@ fn tile_box(grid: &FineGrid, tile: TileIndex) -> [Point; 2] {
 }
 
 /// The density that was said last about a place.
-fn density_at(regions: &[&Arc<FoliageRegion>], place: Point) -> f64 {
+fn density_at(regions: &[Arc<FoliageRegion>], place: Point) -> f64 {
     regions.iter().rev().find(|r| inside(&r.outline, place)).map_or(0.0, |r| r.density)
 }
 
@@ -128,15 +144,10 @@ fn is_blocked(grid: &FineGrid, corridors: &[&Hits], place: Point) -> bool {
 
 /// A place that could have a tree.
 struct Lot {
-    cell: [i64; 2],
-    lot: u64,
     place: Point,
     rank: u64,
     /// It is there from this density on.
     wish: f64,
-    size: f64,
-    turn: f64,
-    kind: f64,
 }
 
 impl Lot {
@@ -144,32 +155,25 @@ impl Lot {
         let mut state = hash(seed ^ hash(cell[0] as u64 ^ hash((cell[1] as u64).wrapping_add(lot << 48))));
         let mut next = || {
             state = hash(state);
-            (state >> 11) as f64 / (1_u64 << 53) as f64
+            share(state)
         };
         let (u, v) = (next(), next());
         let place = origin + Vec2::new((cell[0] as f64 + u) * APART_M, (cell[1] as f64 + v) * APART_M);
-        let (wish, size, turn, kind) = (next(), next(), next(), next());
-        Self { cell, lot, place, rank: hash(state), wish, size, turn, kind }
+        let wish = next();
+        Self { place, wish, rank: hash(state) }
     }
 
-    /// Whether no place within the distance has a higher rank.
-    fn wins(&self, seed: u64, origin: Point) -> bool {
-        for row in -1..=1 {
-            for column in -1..=1 {
-                for lot in 0..LOTS {
-                    let cell = [self.cell[0] + column, self.cell[1] + row];
-                    if cell == self.cell && lot == self.lot {
-                        continue;
-                    }
-                    let other = Self::new(cell, lot, seed, origin);
-                    if (other.place - self.place).hypot2() < APART_M * APART_M && other.rank > self.rank {
-                        return false;
-                    }
-                }
-            }
-        }
-        true
+    /// Size, turn and kind of its tree, each from 0 to 1.
+    fn looks(&self) -> [f64; 3] {
+        let size = hash(self.rank);
+        let turn = hash(size);
+        [size, turn, hash(turn)].map(share)
     }
+}
+
+/// A number from 0 to 1.
+fn share(bits: u64) -> f64 {
+    (bits >> 11) as f64 / (1_u64 << 53) as f64
 }
 
 /// SplitMix64's mixing of bits (Steele, Lea and Flood 2014).
