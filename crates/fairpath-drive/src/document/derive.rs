@@ -153,8 +153,11 @@ pub(super) fn derive(before: Option<(&State, &Results)>, state: &State, terrain:
                 let sections = cross_sections(path, &profile, &structures, &terrain.field, &state.soils, earthwork);
                 let sections = Arc::new(sections);
                 let hits = Arc::new(hits(&sections, path.section.bed_m, earthwork, old_ground.grid()));
-                let tiles = old.into_iter().flat_map(|old| old.hits.keys()).chain(hits.keys());
-                dirty.extend(tiles.copied());
+                // Where it asks what it asked before, the ground stays.
+                let before = old.map(|old| old.hits.as_ref());
+                let differs = |tile: &&TileIndex| before.and_then(|b| b.get(*tile)) != hits.get(*tile);
+                let tiles = before.into_iter().flat_map(|b| b.keys()).chain(hits.keys());
+                dirty.extend(tiles.filter(differs).copied());
                 PathResult {
                     path: path.clone(),
                     profile,
