@@ -342,9 +342,7 @@ fn a_million_points_are_fitted_with_work_that_grows_with_the_curve_only() {
 fn no_piece_bends_to_less_than_the_least_radius() {
     // Up, round a bend of 5 px, and down again; then a wave.
     let leg = (0..40).map(|i| (0.0, f64::from(i) * 3.0));
-    let bend = (0..=12)
-        .map(|i| PI * (1.0 - f64::from(i) / 12.0))
-        .map(|a| (5.0 + 5.0 * a.cos(), 120.0 + 5.0 * a.sin()));
+    let bend = (0..=12).map(|i| PI * (1.0 - f64::from(i) / 12.0)).map(|a| (5.0 + 5.0 * a.cos(), 120.0 + 5.0 * a.sin()));
     let back = (0..40).map(|i| (10.0 + 8.0 * (f64::from(i) / 4.0).sin(), 117.0 - f64::from(i) * 3.0));
     let hairpin = stroke("hairpin", leg.chain(bend).chain(back));
     for min_radius in [1.0, 8.0, 12.0, 20.0] {
