@@ -136,3 +136,18 @@ fn what_was_said_about_a_crossing_holds_for_the_part_that_it_is_on() {
     let over: Vec<Meeting> = results.crossings.iter().filter(|c| !c.at_end).map(|c| c.meeting).collect();
     assert!(over.len() == 1 && over[0] != Meeting::Level, "{:?}", results.crossings);
 }
+
+#[test]
+fn a_bridge_grows_with_the_path_below_it() {
+    let [a, b, _] = triangle();
+    let over = r#"{"do":"crossing","near_m":[300,300],"set":"over","path":"a"}"#;
+    let narrow = document(&[HILLS, a, b, over]);
+    let wide = document(&[HILLS, a, b, over, r#"{"do":"section","path":"b","template":"four-lane"}"#]);
+    let bridge = |document: &Document| {
+        let results = document.results().unwrap();
+        let over = results.paths[0].structures.iter().find(|s| s.over_path).copied();
+        over.map(|s| s.to_m - s.from_m).expect("it passes over the other")
+    };
+    assert!(bridge(&wide) > bridge(&narrow) + 5.0, "{} and {}", bridge(&wide), bridge(&narrow));
+    assert!(wide.results_anew().as_ref() == wide.results().map(|r| r.as_ref()));
+}

@@ -118,8 +118,16 @@ pub(super) fn derive(before: Option<(&State, &Results)>, state: &State, terrain:
         let old = old_path(path.id);
         let elevation = &elevations[i];
         let same_heights = old.is_some_and(|old| same_course(path) && old.profile == elevation.profile);
+        // How long a bridge is depends on the path below it.
+        let same_others = || {
+            let places = crossings_of[i].iter().flat_map(Crossing::places);
+            places.into_iter().all(|place| state.path_of(place.path).is_some_and(same_course))
+        };
         let as_before = |old: &&Arc<PathResult>| {
-            old.crossings == crossings_of[i] && old.wanted == elevation.wanted && old.infeasible == elevation.infeasible
+            old.crossings == crossings_of[i]
+                && old.wanted == elevation.wanted
+                && old.infeasible == elevation.infeasible
+                && same_others()
         };
         if let Some(old) = old.filter(|old| is_old(path) && same_heights && same_ground && as_before(old)) {
             paths.push(old.clone());
