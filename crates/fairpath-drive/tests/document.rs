@@ -1,7 +1,7 @@
 //! Documents: what commands lead to, and that undoing leads back.
 
 use fairpath_curve::Point;
-use fairpath_drive::{Carrier, Command, Document, Meeting, NoFiles, volumes_m3};
+use fairpath_drive::{Carrier, Command, Document, Meeting, NoFiles, Section, volumes_m3};
 
 /// A document to which commands were done, given as the JSON of a script.
 fn document(commands: &[&str]) -> Document {
@@ -142,7 +142,15 @@ fn a_bridge_grows_with_the_path_below_it() {
     let [a, b, _] = triangle();
     let over = r#"{"do":"crossing","near_m":[300,300],"set":"over","path":"a"}"#;
     let narrow = document(&[HILLS, a, b, over]);
-    let wide = document(&[HILLS, a, b, over, r#"{"do":"section","path":"b","template":"four-lane"}"#]);
+    // Of the same height and speed, so that nothing but the width tells.
+    let mut section = Section::shipped("two-lane").unwrap();
+    section.name = "wide".to_owned();
+    section.left[0].width_m = 9.0;
+    section.right[0].width_m = 9.0;
+    let mut wide = document(&[HILLS, a, b, over]);
+    wide.run(Command::DefineSection { section }, &NoFiles).unwrap();
+    let template = "wide".to_owned();
+    wide.run(Command::Section { path: "b".to_owned(), template }, &NoFiles).unwrap();
     let bridge = |document: &Document| {
         let results = document.results().unwrap();
         let over = results.paths[0].structures.iter().find(|s| s.over_path).copied();
