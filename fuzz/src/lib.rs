@@ -9,6 +9,7 @@ use fairpath_io::{
     read_drive_script_from, read_splines_from, read_strokes_from, read_templates_from, read_terrain_from,
 };
 use fairpath_sketch::{Answer, Job, run, run_encoded_job};
+use std::path::Path;
 
 /// Any bytes as splines in one format: read or refused, and what was read can be written in every format and reads back the same.
 ///
@@ -121,10 +122,10 @@ pub fn drive_script(bytes: &[u8]) {
     }
     if let Some(results) = document.results() {
         assert!(document.results_anew().as_ref() == Some(results.as_ref()));
-        let bytes = encode_project(&document).expect("all numbers are finite");
+        let bytes = encode_project(&document, Path::new(""), Path::new("")).expect("all numbers are finite");
         while document.undo() {}
         while document.redo() {}
-        assert!(encode_project(&document).expect("as before") == bytes);
+        assert!(encode_project(&document, Path::new(""), Path::new("")).expect("as before") == bytes);
     }
 }
 

@@ -9,8 +9,8 @@ use std::path::Path;
 use std::time::Instant;
 
 use fairpath_curve::{Point, Vec2};
-use fairpath_drive::{Command, Document, HeightMode, SketchScale};
-use fairpath_io::{ReadOptions, ScriptCommand, TerrainFolder, read_drive_script};
+use fairpath_drive::{Command, Document, HeightMode, NoFiles, SketchScale};
+use fairpath_io::{ReadOptions, open_drive};
 
 /// Size of a pixel of the strokes, m, as the example scripts have it.
 const PIXEL_M: f64 = 2.0;
@@ -26,33 +26,19 @@ fn main() -> Result<(), Box<dyn Error>> {
 }
 
 fn pace(path: &Path) -> Result<(), Box<dyn Error>> {
-    let script = read_drive_script(path, &ReadOptions::default())?;
-    let files = TerrainFolder::beside(path);
-    let mut document = Document::new();
-    for command in script.commands {
-        let commands = match command {
-            ScriptCommand::Document(command) => vec![command],
-            ScriptCommand::Import(import) => {
-                let terrain = document.state().terrain.clone().ok_or("there is no terrain")?;
-                import.sketches(files.folder(), &terrain.field, terrain.georeference.as_ref())?.0
-            }
-        };
-        for command in commands {
-            document.run(command, &files)?;
-        }
-    }
+    let mut document = open_drive(path, &ReadOptions::default(), &mut |_, _| {})?.document;
     // Once as all paths are drawn, fair, and once as the script has them.
     let as_it_is = document.state().paths.iter().any(|p| p.heights == HeightMode::Engineered);
     if as_it_is {
-        measured(&mut document, &files, path, "engineered")?;
+        measured(&mut document, path, "engineered")?;
     }
-    document.run(Command::Heights { path: None, mode: HeightMode::Fair }, &files)?;
-    measured(&mut document, &files, path, "fair")
+    document.run(Command::Heights { path: None, mode: HeightMode::Fair }, &NoFiles)?;
+    measured(&mut document, path, "fair")
 }
 
-fn measured(document: &mut Document, files: &TerrainFolder, path: &Path, mode: &str) -> Result<(), Box<dyn Error>> {
+fn measured(document: &mut Document, path: &Path, mode: &str) -> Result<(), Box<dyn Error>> {
     let terrain = document.state().terrain.clone().ok_or("there is no terrain")?;
-    let (mut times, mut fits) = (Vec::new(), Vec::new());
+    let (mut times, mut fits, mut refused) = (Vec::new(), Vec::new(), 0);
     for old in document.state().paths.clone() {
         let length = old.length_m();
         let extent = (length / 3.0).min(LONGEST_M);
@@ -69,7 +55,8 @@ fn measured(document: &mut Document, files: &TerrainFolder, path: &Path, mode: &
         let points_m = points.iter().map(|p| [p.x, p.y]).collect();
         let command = Command::Oversketch { points_m, path: Some(old.name.clone()), pixel_m: PIXEL_M };
         let begun = Instant::now();
-        if document.run(command, files).is_err() {
+        if document.run(command, &NoFiles).is_err() {
+            refused += 1;
             continue;
         }
         times.push(1e3 * begun.elapsed().as_secs_f64());
@@ -81,12 +68,15 @@ fn measured(document: &mut Document, files: &TerrainFolder, path: &Path, mode: &
         fits.push(1e3 * begun.elapsed().as_secs_f64());
         drop(done);
     }
+    if times.is_empty() {
+        return Err(format!("{}: no path could be edited", path.display()).into());
+    }
     times.sort_by(f64::total_cmp);
     fits.sort_by(f64::total_cmp);
     let at = |all: &[f64], share: f64| all.get((share * (all.len() - 1) as f64) as usize).copied().unwrap_or(f64::NAN);
     let [columns, rows] = terrain.field.size();
     println!(
-        "{}, {mode}: terrain of {columns} × {rows}, {} paths; an edit takes {:.1} ms (median), {:.1} (90 of 100), {:.1} at most; of it the fit {:.1}, {:.1}, {:.1}",
+        "{}, {mode}: terrain of {columns} × {rows}, {} paths, of which {refused} could not be edited; an edit takes {:.1} ms (median), {:.1} (90 of 100), {:.1} at most; of it the fit {:.1}, {:.1}, {:.1}",
         path.display(),
         document.state().paths.len(),
         at(&times, 0.5),

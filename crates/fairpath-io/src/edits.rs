@@ -1,14 +1,13 @@
 //! `fairpath-edits 1`: edits of splines as JSON, in the order in which they are to be made.
 
-use crate::error::{Error, Fault};
-use crate::input::{Budget, label, open, read_all, text};
-use crate::limits::{Limits, ReadOptions};
-use crate::strokes_json::{check_format, check_version, json_fault};
+use crate::error::Error;
+use crate::input::{label, open, read_all, text};
+use crate::limits::ReadOptions;
+use crate::listed::Listed;
 use fairpath_curve::Continuity;
 use fairpath_fit::{CurveEnd, Extension};
 use schemars::JsonSchema;
-use serde::{Deserialize, Deserializer, Serialize};
-use serde_json::Value;
+use serde::{Deserialize, Serialize};
 use std::io::Read;
 use std::path::Path;
 
@@ -180,46 +179,8 @@ pub fn read_edits(path: &Path, options: &ReadOptions) -> Result<Vec<Edit>, Error
 pub fn read_edits_from(reader: impl Read, name: &str, options: &ReadOptions) -> Result<Vec<Edit>, Error> {
     let parsed = || {
         let bytes = read_all(reader, &options.limits)?;
-        text(&bytes).and_then(|text| parse(text, &options.limits))
+        let listed = Listed { format: FORMAT, list: "edits", one: "edit" };
+        text(&bytes).and_then(|text| listed.parse(text, &options.limits, |value, _| serde_json::from_value(value)))
     };
     parsed().map_err(|fault| fault.in_file(name))
-}
-
-/// A file before its edits are looked at one by one.
-#[derive(Deserialize)]
-struct Envelope {
-    #[serde(deserialize_with = "read_format")]
-    #[expect(dead_code, reason = "it is checked as it is read")]
-    format: (),
-    #[serde(deserialize_with = "read_version")]
-    #[expect(dead_code, reason = "it is checked as it is read")]
-    version: (),
-    edits: Vec<Value>,
-}
-
-fn read_format<'de, D: Deserializer<'de>>(d: D) -> Result<(), D::Error> {
-    check_format(&String::deserialize(d)?, FORMAT)
-}
-
-fn read_version<'de, D: Deserializer<'de>>(d: D) -> Result<(), D::Error> {
-    check_version(u64::deserialize(d)?)
-}
-
-fn parse(text: &str, limits: &Limits) -> Result<Vec<Edit>, Fault> {
-    let Envelope { edits, .. } = serde_json::from_str(text).map_err(|e| json_fault(&e))?;
-    let mut items = Budget::items(limits);
-    let (mut good, mut problems) = (Vec::with_capacity(edits.len()), Vec::new());
-    for (i, value) in edits.into_iter().enumerate() {
-        items.spend(|| format!("edit {}", i + 1))?;
-        let name = value.get("do").and_then(Value::as_str).map(|name| format!(" ({name})")).unwrap_or_default();
-        match serde_json::from_value(value) {
-            Ok(edit) => good.push(edit),
-            Err(e) => problems.push(format!("edit {}{name}: {e}", i + 1)),
-        }
-    }
-    if problems.is_empty() {
-        return Ok(good);
-    }
-    let place = if problems.len() == 1 { "one edit".into() } else { format!("{} edits", problems.len()) };
-    Err(Fault::new(place, problems.join("; ")))
 }

@@ -51,6 +51,7 @@ mod geodetic;
 mod gltf;
 mod input;
 mod limits;
+mod listed;
 mod mesh_gltf;
 mod mesh_obj;
 pub mod picture;
@@ -80,9 +81,8 @@ mod xml;
 pub use atomic::write_whole;
 pub use comparison::{ComparedMethod, Comparison, MethodSummary};
 pub use drive::{
-    DriveExport, DriveProject, DriveScript, ExportFormat, PathSummary, ScriptCommand, TerrainFolder, encode_drive,
-    encode_earthwork, encode_moments, encode_project, is_project, read_drive_script, read_drive_script_from,
-    read_project, summaries,
+    DriveExport, DriveScript, ExportFormat, OpenedDrive, PathSummary, ScriptCommand, encode_drive, encode_earthwork,
+    encode_moments, encode_project, open_drive, read_drive_script_from, summaries,
 };
 pub use edits::{Edit, Through, read_edits, read_edits_from};
 pub use error::Error;

@@ -95,7 +95,7 @@ pub(super) fn apply(
             let points = places("points_m", points_m, 2)?;
             let i = match path {
                 Some(name) => index(state, name)?,
-                None => nearest_path(state, points[0]).ok_or_else(|| no_path(state, "(under the stroke)"))?,
+                None => nearest_path(state, points[0]).ok_or_else(|| state.no_path("(under the stroke)"))?,
             };
             let scale = scale(*pixel_m, state.paths[i].section.min_radius_m)?;
             let (result, warnings) = redrawn(&state.paths[i], &points, &scale)?;
@@ -251,19 +251,7 @@ fn scale(pixel_m: f64, min_radius_m: f64) -> Result<SketchScale, CommandError> {
 }
 
 fn index(state: &State, name: &str) -> Result<usize, CommandError> {
-    state.paths.iter().position(|p| p.name == name).ok_or_else(|| no_path(state, name))
-}
-
-/// So many names at most are told.
-const MOST_NAMES: usize = 12;
-
-fn no_path(state: &State, name: &str) -> CommandError {
-    let mut known: Vec<&str> = state.paths.iter().take(MOST_NAMES).map(|p| p.name.as_str()).collect();
-    if state.paths.len() > MOST_NAMES {
-        known.push("…");
-    }
-    let known = if known.is_empty() { "none".to_owned() } else { known.join(", ") };
-    CommandError::NoPath { name: name.to_owned(), known }
+    state.paths.iter().position(|p| p.name == name).ok_or_else(|| state.no_path(name))
 }
 
 fn section_named(state: &State, name: &str) -> Result<Arc<Section>, CommandError> {

@@ -184,6 +184,33 @@ pub enum Command {
     },
 }
 
+impl Command {
+    /// The word for it in a script.
+    #[must_use]
+    pub const fn word(&self) -> &'static str {
+        match self {
+            Self::Terrain(_) => "terrain",
+            Self::Sketch { .. } => "sketch",
+            Self::Oversketch { .. } => "oversketch",
+            Self::Crossing { .. } => "crossing",
+            Self::Delete { .. } => "delete",
+            Self::Split { .. } => "split",
+            Self::Join { .. } => "join",
+            Self::Roundabout { .. } => "roundabout",
+            Self::Elevation { .. } => "elevation",
+            Self::Heights { .. } => "heights",
+            Self::Speed { .. } => "speed",
+            Self::Foliage { .. } => "foliage",
+            Self::Water { .. } => "water",
+            Self::Soil { .. } => "soil",
+            Self::Section { .. } => "section",
+            Self::DefineSection { .. } => "define-section",
+            Self::Layer { .. } => "layer",
+            Self::Settings { .. } => "settings",
+        }
+    }
+}
+
 fn road() -> String {
     "road".to_owned()
 }

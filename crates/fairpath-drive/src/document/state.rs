@@ -1,5 +1,6 @@
 //! A state of a document: what was said, and nothing that follows from it. Copies share what they have in common.
 
+use super::error::CommandError;
 use crate::ground::{EarthworkOptions, Soils};
 use crate::network::{Choice, Path, PathId, StructureLimits};
 use crate::rules::DesignRules;
@@ -81,4 +82,18 @@ impl State {
     pub fn section(&self, name: &str) -> Option<Arc<Section>> {
         self.sections.get(name).cloned().or_else(|| Section::shipped(name).map(Arc::new))
     }
+
+    /// What there is to say where a path is named that does not exist.
+    #[must_use]
+    pub fn no_path(&self, name: &str) -> CommandError {
+        let mut known: Vec<&str> = self.paths.iter().take(MOST_NAMES).map(|p| p.name.as_str()).collect();
+        if self.paths.len() > MOST_NAMES {
+            known.push("…");
+        }
+        let known = if known.is_empty() { "none".to_owned() } else { known.join(", ") };
+        CommandError::NoPath { name: name.to_owned(), known }
+    }
 }
+
+/// So many names at most are told.
+const MOST_NAMES: usize = 12;

@@ -4,33 +4,30 @@ use crate::terrain::{TerrainOptions, read_terrain};
 use fairpath_drive::{LaidTerrain, TerrainSource, Terrains};
 use fairpath_fit::Warning;
 use std::cell::RefCell;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// A folder in which terrains lie.
 #[derive(Debug, Default)]
-pub struct TerrainFolder {
+pub(super) struct TerrainFolder {
     folder: PathBuf,
     warnings: RefCell<Vec<Warning>>,
 }
 
 impl TerrainFolder {
-    /// The folder in which a script lies.
-    #[must_use]
-    pub fn beside(script: &std::path::Path) -> Self {
+    /// The folder in which a script lies; the present one for standard input.
+    pub(super) fn beside(script: &Path) -> Self {
         Self { folder: script.parent().map(PathBuf::from).unwrap_or_default(), warnings: RefCell::default() }
     }
 
     /// Where it is.
-    #[must_use]
-    pub fn folder(&self) -> &std::path::Path {
+    pub(super) fn folder(&self) -> &Path {
         &self.folder
     }
 
-    /// What there was to say about the terrains that were read.
-    #[must_use]
-    pub fn warnings(&self) -> Vec<Warning> {
-        self.warnings.borrow().clone()
+    /// What there was to say about the terrains that were read since the last time.
+    pub(super) fn new_warnings(&self) -> Vec<Warning> {
+        self.warnings.take()
     }
 }
 
@@ -40,7 +37,8 @@ impl Terrains for TerrainFolder {
         let options =
             TerrainOptions { height_range_m: source.range_m, spacing_m: source.cell_m, ..TerrainOptions::default() };
         let read = read_terrain(&self.folder.join(file), &options).map_err(|e| e.to_string())?;
-        self.warnings.borrow_mut().extend(read.warnings);
+        let told = |w: Warning| Warning { text: format!("{file}: {}", w.text), ..w };
+        self.warnings.borrow_mut().extend(read.warnings.into_iter().map(told));
         Ok(LaidTerrain { field: Arc::new(read.field), georeference: read.georeference, waters: Arc::default() })
     }
 }

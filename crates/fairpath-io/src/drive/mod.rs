@@ -8,6 +8,7 @@ mod gltf;
 mod import;
 mod landxml;
 mod opendrive;
+mod opening;
 mod project;
 mod script;
 mod summary;
@@ -15,9 +16,9 @@ mod xml;
 
 pub use csv::{encode_earthwork, encode_moments};
 pub use export::{DriveExport, ExportFormat, encode_drive};
-pub use files::TerrainFolder;
-pub use project::{DriveProject, encode_project, is_project, read_project};
-pub use script::{DriveScript, ScriptCommand, read_drive_script, read_drive_script_from};
+pub use opening::{OpenedDrive, open_drive};
+pub use project::encode_project;
+pub use script::{DriveScript, ScriptCommand, read_drive_script_from};
 pub use summary::{PathSummary, summaries};
 
 pub(crate) use script::ScriptRecord;

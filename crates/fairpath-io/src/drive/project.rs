@@ -1,14 +1,11 @@
 //! `fairpath-project 1`: a document as its commands, and what followed from them, so that opening can tell whether the same follows again.
 
-use super::files::TerrainFolder;
 use crate::error::{Error, Fault};
-use crate::input::{label, open, read_all, text};
-use crate::limits::ReadOptions;
 use crate::strokes_json::{check_format, check_version, json_fault};
-use fairpath_drive::{Command, Document, Results};
+use fairpath_drive::{Command, Document, Results, TerrainSource};
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
-use std::path::Path;
+use std::path::{Component, Path, PathBuf};
 
 /// The word in the file's `format`.
 const FORMAT: &str = "fairpath-project";
@@ -24,26 +21,19 @@ struct Record {
     results: Value,
 }
 
-/// A document from a file.
-#[derive(Clone, Debug)]
-pub struct DriveProject {
-    /// The document, its commands done again.
-    pub document: Document,
-    /// Whether the same followed from them as when the file was saved, to the bit.
-    pub same: bool,
-}
-
-/// The file of a document: the same bytes for the same document.
+/// The file of a document: the same bytes for the same document. Files of terrains, which lie beside a script in the folder `from`, are named so that they are found from the folder `to`, in
+/// which the project will lie.
 ///
 /// # Errors
 /// Never for documents that commands led to; a number that is not finite would be refused.
-pub fn encode_project(document: &Document) -> Result<Vec<u8>, Error> {
-    let record = Record {
-        format: FORMAT.to_owned(),
-        version: 1,
-        commands: document.commands().to_vec(),
-        results: document.results().map_or(Value::Null, |r| results(r)),
-    };
+pub fn encode_project(document: &Document, from: &Path, to: &Path) -> Result<Vec<u8>, Error> {
+    let mut commands = document.commands().to_vec();
+    for command in &mut commands {
+        if let Command::Terrain(TerrainSource { file: Some(file), .. }) = command {
+            *file = seen_from(&from.join(&*file), to, file);
+        }
+    }
+    let record = Record { format: FORMAT.to_owned(), version: 1, commands, results: what_followed(document) };
     let unwritable = |e: serde_json::Error| Error::Unwritable {
         format: "fairpath-project",
         place: "the document".to_owned(),
@@ -52,6 +42,36 @@ pub fn encode_project(document: &Document) -> Result<Vec<u8>, Error> {
     let mut bytes = serde_json::to_vec_pretty(&record).map_err(unwritable)?;
     bytes.push(b'\n');
     Ok(bytes)
+}
+
+/// A file's path as it is from another folder; as it was if one of them is not there.
+fn seen_from(file: &Path, folder: &Path, as_it_was: &str) -> String {
+    let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+    let (Ok(file), Ok(folder)) = (file.canonicalize(), folder.canonicalize()) else { return as_it_was.to_owned() };
+    let common = file.components().zip(folder.components()).take_while(|(a, b)| a == b).count();
+    let up = folder.components().skip(common).map(|_| Component::ParentDir);
+    let path: PathBuf = up.chain(file.components().skip(common)).collect();
+    // With slashes, so that the project can be taken to another system.
+    let parts: Vec<String> = path.components().map(|c| c.as_os_str().to_string_lossy().into_owned()).collect();
+    parts.join("/")
+}
+
+/// What followed from a document's commands.
+fn what_followed(document: &Document) -> Value {
+    document.results().map_or(Value::Null, |r| results(r))
+}
+
+/// The commands of a project, and what followed from them when it was saved.
+pub(super) struct Saved {
+    pub(super) commands: Vec<Command>,
+    results: Value,
+}
+
+impl Saved {
+    /// Whether the same follows again, to the bit.
+    pub(super) fn follows_from(&self, document: &Document) -> bool {
+        self.results == what_followed(document)
+    }
 }
 
 /// What followed, in so far as other programs may want it, and sums of the rest.
@@ -106,32 +126,16 @@ impl Fnv {
 }
 
 /// Whether a file that begins like this is a project.
-#[must_use]
-pub fn is_project(head: &[u8]) -> bool {
+pub(super) fn is_project(head: &[u8]) -> bool {
     let head = String::from_utf8_lossy(&head[..head.len().min(200)]);
     head.contains("\"fairpath-project\"")
 }
 
-/// The document in a file, its commands done again; terrains are looked for beside it. `-` is standard input.
-///
-/// # Errors
-/// When the file cannot be read or breaks the format's rules, or one of its commands cannot be done.
-pub fn read_project(path: &Path, options: &ReadOptions) -> Result<DriveProject, Error> {
-    let name = label(path);
-    let in_file = |fault: Fault| fault.in_file(&name);
-    let bytes = read_all(open(path)?, &options.limits).map_err(in_file)?;
-    let record: Record =
-        text(&bytes).and_then(|t| serde_json::from_str(t).map_err(|e| json_fault(&e))).map_err(in_file)?;
-    let checked =
-        check_format::<serde_json::Error>(&record.format, FORMAT).and_then(|()| check_version(record.version));
-    checked.map_err(|e| in_file(json_fault(&e)))?;
-    let files = TerrainFolder::beside(path);
-    let mut document = Document::new();
-    for (i, command) in record.commands.into_iter().enumerate() {
-        document
-            .run(command, &files)
-            .map_err(|e| in_file(Fault::new(format_args!("command {}", i + 1), e.to_string())))?;
-    }
-    let same = encode_project(&document)? == bytes;
-    Ok(DriveProject { document, same })
+/// A project from its text.
+pub(super) fn parse(text: &str) -> Result<Saved, Fault> {
+    let Record { format, version, commands, results } = serde_json::from_str(text).map_err(|e| json_fault(&e))?;
+    let told = |e: serde_json::Error| Fault::new("the head of the file", e);
+    check_format(&format, FORMAT).map_err(told)?;
+    check_version(version).map_err(told)?;
+    Ok(Saved { commands, results })
 }

@@ -4,10 +4,10 @@ use std::path::Path;
 use std::time::Instant;
 
 use anyhow::{Context, Result, bail};
-use fairpath_drive::{Breach, CameraTrack, Command, Document, Results, State};
+use fairpath_drive::{Breach, CameraTrack, Document, Results, State};
 use fairpath_io::{
-    DriveExport, ExportFormat, PathSummary, ReadOptions, ScriptCommand, TerrainFolder, encode_drive, encode_earthwork,
-    encode_moments, encode_project, is_project, read_drive_script, read_project, summaries,
+    DriveExport, ExportFormat, OpenedDrive, PathSummary, ReadOptions, encode_drive, encode_earthwork, encode_moments,
+    encode_project, open_drive, summaries,
 };
 
 use super::Ending;
@@ -39,8 +39,8 @@ fn run_script(args: &DriveRunArgs, printer: &mut Printer) -> Result<Ending> {
         check_place(path)?;
     }
     interrupt::install();
-    let document = opened(&args.script, args.times, printer)?;
-    let (state, results) = laid(&document, &args.script)?;
+    let opened = opened(&args.script, args.times, printer)?;
+    let (state, results) = laid(&opened.document, &args.script)?;
     let mut ready = Ready::default();
     let name = args.script.file_stem().map(|s| s.to_string_lossy().into_owned()).unwrap_or_default();
     for (path, format) in exports {
@@ -53,17 +53,21 @@ fn run_script(args: &DriveRunArgs, printer: &mut Printer) -> Result<Ending> {
         ready.add(path, bytes);
     }
     if let Some(path) = &args.project {
-        ready.add(path, encode_project(&document)?);
+        let to = path.parent().unwrap_or(Path::new(""));
+        ready.add(path, encode_project(&opened.document, &opened.folder, to)?);
     }
     ready.write()?;
-    printer.result(&table(&summaries(state, results)))?;
+    // A project on standard output is for a program, which a table would disturb.
+    if args.project.as_deref() != Some(Path::new("-")) {
+        printer.result(&table(&summaries(state, results)))?;
+    }
     Ok(Ending::Done)
 }
 
 fn check(args: &DriveCheckArgs, printer: &mut Printer) -> Result<Ending> {
     interrupt::install();
-    let document = opened(&args.project, false, printer)?;
-    let (state, results) = laid(&document, &args.project)?;
+    let opened = opened(&args.project, false, printer)?;
+    let (state, results) = laid(&opened.document, &args.project)?;
     let all = summaries(state, results);
     let rows: Vec<Vec<String>> =
         all.iter().flat_map(|path| path.breaches.iter().map(|b| breach(&path.name, b))).collect();
@@ -80,8 +84,8 @@ fn earthwork(args: &DriveEarthworkArgs, printer: &mut Printer) -> Result<Ending>
         bail!("--every {}: rows can be 0.1 to 1000000 m apart", args.every);
     }
     interrupt::install();
-    let document = opened(&args.project, false, printer)?;
-    let (state, results) = laid(&document, &args.project)?;
+    let opened = opened(&args.project, false, printer)?;
+    let (state, results) = laid(&opened.document, &args.project)?;
     if let Some(name) = args.path.as_deref().filter(|name| state.path(name).is_none()) {
         return Err(no_path(state, &args.project, name));
     }
@@ -92,20 +96,20 @@ fn earthwork(args: &DriveEarthworkArgs, printer: &mut Printer) -> Result<Ending>
 }
 
 fn no_path(state: &State, file: &Path, name: &str) -> anyhow::Error {
-    let known: Vec<&str> = state.paths.iter().map(|p| p.name.as_str()).collect();
-    anyhow::anyhow!("{}: there is no path {name:?}; there are {}", file.display(), known.join(", "))
+    anyhow::Error::new(state.no_path(name)).context(file.display().to_string())
 }
 
 fn play(args: &DrivePlayArgs, printer: &mut Printer) -> Result<Ending> {
     check_place(&args.output)?;
     interrupt::install();
-    let document = opened(&args.project, false, printer)?;
-    let (state, results) = laid(&document, &args.project)?;
+    let opened = opened(&args.project, false, printer)?;
+    let (state, results) = laid(&opened.document, &args.project)?;
     let Some(path) = state.path(&args.path) else {
         return Err(no_path(state, &args.project, &args.path));
     };
     let to = args.to.unwrap_or(path.length_m());
-    let drive = fairpath_drive::drive(results, path.id, [args.from, to], args.on, args.step)?;
+    let drive = fairpath_drive::drive(results, path.id, [args.from, to], args.on, args.step);
+    let drive = drive.with_context(|| format!("{}: path {:?}", args.project.display(), args.path))?;
     let track = args.camera.map(|name| match name {
         CameraName::Driver => CameraTrack::Driver,
         CameraName::Chase => CameraTrack::Chase,
@@ -119,68 +123,19 @@ fn play(args: &DrivePlayArgs, printer: &mut Printer) -> Result<Ending> {
 }
 
 /// The document that a script or a project leads to.
-fn opened(path: &Path, times: bool, printer: &mut Printer) -> Result<Document> {
-    let options = ReadOptions::default();
-    let head = std::fs::read(path).map(|bytes| is_project(&bytes)).unwrap_or(false);
-    if head {
-        let project = read_project(path, &options)?;
-        if !project.same {
-            printer.note(&format!(
-                "{}: what follows from its commands is not what was saved with them: a terrain or the program changed",
-                path.display()
-            ));
+fn opened(path: &Path, times: bool, printer: &mut Printer) -> Result<OpenedDrive> {
+    let mut since = Instant::now();
+    let mut done = |number: usize, word: &str| {
+        if times {
+            printer.note(&format!("{:8.1} ms  command {number} ({word})", ms(since)));
         }
-        return Ok(project.document);
+        since = Instant::now();
+    };
+    let opened = open_drive(path, &ReadOptions::default(), &mut done)?;
+    for warning in &opened.warnings {
+        printer.note(&format!("{}: {}", path.display(), warning.text));
     }
-    let script = read_drive_script(path, &options)?;
-    let files = TerrainFolder::beside(path);
-    let mut document = Document::new();
-    for (i, command) in script.commands.into_iter().enumerate() {
-        let commands = match command {
-            ScriptCommand::Document(command) => vec![command],
-            ScriptCommand::Import(import) => {
-                let Some(terrain) = document.state().terrain.as_ref() else {
-                    bail!("{}: command {} (import): lay the terrain first", path.display(), i + 1);
-                };
-                let (sketches, left_out) =
-                    import.sketches(files.folder(), &terrain.field, terrain.georeference.as_ref())?;
-                if left_out > 0 {
-                    printer.note(&format!("{}: {left_out} lines were left out", import.file));
-                }
-                sketches
-            }
-        };
-        for command in commands {
-            run_one(&mut document, command, &files, (path, i + 1, times), printer)?;
-        }
-    }
-    for warning in files.warnings() {
-        printer.note(&warning.text);
-    }
-    Ok(document)
-}
-
-fn run_one(
-    document: &mut Document,
-    command: Command,
-    files: &TerrainFolder,
-    (path, number, times): (&Path, usize, bool),
-    printer: &mut Printer,
-) -> Result<()> {
-    let name = serde_json::to_value(&command)
-        .ok()
-        .and_then(|v| v.get("do").and_then(serde_json::Value::as_str).map(str::to_owned))
-        .unwrap_or_default();
-    let begun = Instant::now();
-    let outcome =
-        document.run(command, files).with_context(|| format!("{}: command {number} ({name})", path.display()))?;
-    if times {
-        printer.note(&format!("{:8.1} ms  command {number} ({name})", ms(begun)));
-    }
-    for warning in outcome.warnings {
-        printer.note(&format!("{}: command {number} ({name}): {}", path.display(), warning.text));
-    }
-    Ok(())
+    Ok(opened)
 }
 
 fn ms(since: Instant) -> f64 {

@@ -60,6 +60,39 @@ fn a_project_opens_to_the_same_bytes() {
 }
 
 #[test]
+fn a_project_finds_its_terrain_from_another_folder_and_standard_input_is_read_once() {
+    let folder = tempdir().unwrap();
+    let (scripts, projects) = (folder.path().join("scripts"), folder.path().join("projects/mine"));
+    fs::create_dir_all(&scripts).unwrap();
+    fs::create_dir_all(&projects).unwrap();
+    let rows: Vec<String> =
+        (0..40).map(|r| (0..40).map(|c| (r + c).to_string()).collect::<Vec<_>>().join(" ")).collect();
+    let head = "ncols 40\nnrows 40\nxllcenter 0\nyllcenter 0\ncellsize 10\n";
+    fs::write(scripts.join("hill.asc"), format!("{head}{}\n", rows.join("\n"))).unwrap();
+    let text = r#"{"format":"fairpath-drive-script","version":1,"commands":[
+        {"do":"terrain","file":"hill.asc"},
+        {"do":"sketch","name":"a","points_m":[[50,200],[200,210],[350,190]]}]}"#;
+    fs::write(scripts.join("a.json"), text).unwrap();
+    let table =
+        ran(folder.path(), &["drive", "run", "scripts/a.json", "--project", "projects/mine/a.fairpath"]).ended(0);
+    let again = ran(&projects, &["drive", "run", "a.fairpath"]).ended(0);
+    assert_eq!(again.text(), table.text());
+    assert!(!again.err.contains("not what was saved"), "{}", again.err);
+    // From standard input files lie beside the present folder; a project there is for a program alone.
+    let piped = |folder: &Path, bytes: &[u8], args: &[&str]| {
+        use std::io::Write;
+        let mut child = super::command(args).current_dir(folder).stdin(std::process::Stdio::piped()).spawn().unwrap();
+        child.stdin.take().unwrap().write_all(bytes).unwrap();
+        child.wait_with_output().unwrap()
+    };
+    let project = fs::read(projects.join("a.fairpath")).unwrap();
+    let out = piped(&projects, &project, &["drive", "run", "-", "--project", "-"]);
+    assert!(out.status.success() && out.stdout == project, "{}", String::from_utf8_lossy(&out.stderr));
+    let out = piped(&scripts, text.as_bytes(), &["drive", "run", "-"]);
+    assert!(out.status.success() && out.stdout == table.out, "{}", String::from_utf8_lossy(&out.stderr));
+}
+
+#[test]
 fn a_check_names_path_station_value_and_limit() {
     let folder = tempdir().unwrap();
     let text = r#"{"format":"fairpath-drive-script","version":1,"commands":[
