@@ -3,7 +3,7 @@
 use crate::network::{Crossing, Path, PathId, separation_m};
 use crate::profile::Profile;
 use crate::range::{OutOfRange, within};
-use fairpath_curve::Kind;
+use fairpath_curve::{Kind, Segment};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -219,33 +219,49 @@ impl DesignRules {
     }
 
     fn plan_breaches(&self, path: &Path, found: &mut Vec<Breach>) {
-        let mut from = 0.0;
+        let limits = path.speed_limits();
+        let mut begin = 0.0;
         for segment in path.plan.segments() {
-            let to = from + segment.length;
-            let (at, kappa) = if segment.kappa0.abs() >= segment.kappa1.abs() {
-                (from, segment.kappa0)
-            } else {
-                (to, segment.kappa1)
-            };
-            let kmh = path.speed_limit_kmh(at);
-            let radius = 1.0 / kappa.abs();
-            let breach =
-                |rule, value, limit| Breach { path: path.id, station_m: at, range_m: [from, to], rule, value, limit };
-            let least = self.min_radius_m(kmh);
-            if radius < least * (1.0 - TOLERANCE) {
-                found.push(breach(Rule::Radius, radius, least));
-                found.push(breach(Rule::Superelevation, self.superelevation(kmh, radius), self.max_superelevation));
-            }
-            if segment.kind() == Kind::Clothoid {
-                let least = self.min_clothoid_m(kmh);
-                let parameter = segment.clothoid_parameter();
-                // Where a clothoid does not turn noticeably, nobody feels how fast it does.
-                let felt = radius < 4.0 * self.min_radius_m(kmh);
-                if felt && parameter < least * (1.0 - TOLERANCE) {
-                    found.push(breach(Rule::ClothoidParameter, parameter, least));
+            let end = begin + segment.length;
+            // Each stretch of the segment on which one speed holds.
+            for (i, &(from, kmh)) in limits.iter().enumerate() {
+                let until = limits.get(i + 1).map_or(f64::INFINITY, |l| l.0);
+                let range_m = [from.max(begin), until.min(end)];
+                if range_m[0] < range_m[1] {
+                    self.stretch_breaches(path.id, segment, begin, range_m, kmh, found);
                 }
             }
-            from = to;
+            begin = end;
+        }
+    }
+
+    /// Breaches on a stretch of a segment, which begins at the station `begin`.
+    fn stretch_breaches(
+        &self,
+        path: PathId,
+        segment: &Segment,
+        begin: f64,
+        range_m: [f64; 2],
+        kmh: f64,
+        found: &mut Vec<Breach>,
+    ) {
+        // Along a clothoid curvature is most at one of the ends.
+        let [a, b] = range_m.map(|s| segment.curvature_at(s - begin).abs());
+        let (station_m, kappa) = if a >= b { (range_m[0], a) } else { (range_m[1], b) };
+        let radius = 1.0 / kappa;
+        let breach = |rule, value, limit| Breach { path, station_m, range_m, rule, value, limit };
+        let least = self.min_radius_m(kmh);
+        if radius < least * (1.0 - TOLERANCE) {
+            found.push(breach(Rule::Radius, radius, least));
+            found.push(breach(Rule::Superelevation, self.superelevation(kmh, radius), self.max_superelevation));
+        }
+        // Where a clothoid does not turn noticeably, nobody feels how fast it does.
+        if segment.kind() == Kind::Clothoid && radius < FELT * least {
+            let least = self.min_clothoid_m(kmh);
+            let parameter = segment.clothoid_parameter();
+            if parameter < least * (1.0 - TOLERANCE) {
+                found.push(breach(Rule::ClothoidParameter, parameter, least));
+            }
         }
     }
 
@@ -294,6 +310,9 @@ impl DesignRules {
         found
     }
 }
+
+/// Sideways acceleration is felt on radii up to so many times the least one.
+const FELT: f64 = 4.0;
 
 /// Values this near to a limit, as a share of it, keep to it.
 const TOLERANCE: f64 = 1e-6;

@@ -1,7 +1,7 @@
 //! Documents: what commands lead to, and that undoing leads back.
 
 use fairpath_curve::Point;
-use fairpath_drive::{Carrier, Command, Document, Meeting, NoFiles, Section, volumes_m3};
+use fairpath_drive::{Carrier, Command, Document, Meeting, NoFiles, PathPlace, Section, volumes_m3};
 
 /// A document to which commands were done, given as the JSON of a script.
 fn document(commands: &[&str]) -> Document {
@@ -133,8 +133,11 @@ fn what_was_said_about_a_crossing_holds_for_the_part_that_it_is_on() {
     ]);
     let results = document.results().unwrap();
     assert_eq!(results.paths.len(), 4);
-    let over: Vec<Meeting> = results.crossings.iter().filter(|c| !c.at_end).map(|c| c.meeting).collect();
-    assert!(over.len() == 1 && over[0] != Meeting::Level, "{:?}", results.crossings);
+    let crossings: Vec<_> = results.crossings.iter().filter(|c| !c.at_end).collect();
+    assert_eq!(crossings.len(), 1, "{:?}", results.crossings);
+    let [upper, lower] = crossings[0].upper_lower().expect("one of them is above");
+    let name = |place: PathPlace| results.path(place.path).unwrap().path.name.clone();
+    assert!(name(upper).starts_with('b') && name(lower).starts_with('a'), "{} over {}", name(upper), name(lower));
 }
 
 #[test]
@@ -158,4 +161,81 @@ fn a_bridge_grows_with_the_path_below_it() {
     };
     assert!(bridge(&wide) > bridge(&narrow) + 5.0, "{} and {}", bridge(&wide), bridge(&narrow));
     assert!(wide.results_anew().as_ref() == wide.results().map(|r| r.as_ref()));
+}
+
+#[test]
+fn a_choice_stays_with_its_crossing_when_the_path_is_split_before_the_next_one() {
+    let document = document(&[
+        HILLS,
+        r#"{"do":"sketch","name":"a","points_m":[[200,300],[500,300],[800,300]],"as":"new"}"#,
+        r#"{"do":"sketch","name":"b","points_m":[[400,200],[400,330],[420,350],[440,330],[440,200]],"as":"new","min_radius_m":12}"#,
+        r#"{"do":"crossing","near_m":[400,300],"set":"over","path":"a"}"#,
+        r#"{"do":"split","path":"a","at_m":220.0}"#,
+    ]);
+    let mut met: Vec<(f64, bool)> = document
+        .results()
+        .unwrap()
+        .crossings
+        .iter()
+        .filter(|c| !c.at_end)
+        .map(|c| (c.point.x.round(), c.meeting == Meeting::Level))
+        .collect();
+    met.sort_by(|p, q| p.0.total_cmp(&q.0));
+    assert_eq!(met.iter().map(|m| m.1).collect::<Vec<_>>(), [false, true], "{met:?}");
+}
+
+#[test]
+fn what_was_said_about_a_stretch_outlives_a_cut_through_it() {
+    let [a, _, _] = triangle();
+    let document = document(&[
+        HILLS,
+        a,
+        r#"{"do":"speed","path":"a","kmh":30}"#,
+        r#"{"do":"elevation","path":"a","points_m":[[200,140],[400,150]]}"#,
+        r#"{"do":"split","path":"a","at_m":300.0}"#,
+    ]);
+    let results = document.results().unwrap();
+    for path in &results.paths {
+        let limits = path.path.speed_limits();
+        assert_eq!(limits, [(0.0, 30.0)], "{}", path.path.name);
+        let ends = [0.0, path.path.length_m()];
+        assert!(ends.iter().any(|s| (path.profile.at(*s).height_m - 145.0).abs() < 0.5), "{:?}", path.path.drawn);
+    }
+    assert_eq!(document.state().paths[1].drawn[0].points_m, [[0.0, 145.0], [100.0, 150.0]]);
+}
+
+#[test]
+fn bridges_heights_and_intersections_go_on_over_the_seam_of_a_closed_path() {
+    // The circle begins at its easternmost point, where the road lies.
+    let circle = r#"{"do":"roundabout","at_m":[500,500],"radius_m":100,"name":"circle"}"#;
+    let across = r#"{"do":"sketch","name":"road","points_m":[[450,500],[600,500],[900,500]],"as":"new"}"#;
+    let over =
+        document(&[HILLS, circle, across, r#"{"do":"crossing","near_m":[600,500],"set":"over","path":"circle"}"#]);
+    let circle_of = |document: &Document| {
+        document.results().unwrap().path(document.state().path("circle").unwrap().id).unwrap().clone()
+    };
+    let bridges = circle_of(&over).structures.clone();
+    let length = circle_of(&over).path.length_m();
+    assert!(bridges.iter().any(|s| s.from_m == 0.0 && s.to_m > 5.0), "{bridges:?}");
+    assert!(bridges.iter().any(|s| s.to_m == length && s.from_m < length - 5.0), "{bridges:?}");
+    let level = document(&[HILLS, circle, across]);
+    let junctions = &level.results().unwrap().junctions;
+    assert_eq!(junctions.len(), 1, "{junctions:?}");
+    // Two arms of the circle and two of the road.
+    assert_eq!(junctions[0].arms.len(), 4, "{:?}", junctions[0].arms);
+    let drawn = document(&[HILLS, circle, r#"{"do":"elevation","path":"circle","points_m":[[0,150],[40,152]]}"#]);
+    let profile = circle_of(&drawn).profile.clone();
+    assert!(
+        (profile.at(0.0).height_m - 150.0).abs() < 0.5
+            && (profile.at(length).height_m - profile.at(0.0).height_m).abs() < 1e-9
+    );
+    assert!((profile.at(length - 5.0).height_m - 150.0).abs() < 5.0, "{}", profile.at(length - 5.0).height_m);
+}
+
+#[test]
+fn a_stroke_without_end_is_refused() {
+    let mut document = document(&[HILLS]);
+    let far: Command = serde_json::from_str(r#"{"do":"sketch","points_m":[[0,0],[1e9,0]]}"#).unwrap();
+    let error = document.run(far, &NoFiles).unwrap_err().to_string();
+    assert!(error.contains("1000 km"), "{error}");
 }

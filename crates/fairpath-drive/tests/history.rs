@@ -91,12 +91,35 @@ fn command(document: &Document, random: &mut Random, kind: usize) -> Command {
             lasso_m: (random.next() < 0.7).then(|| random.square(150.0)),
             class: random.of(&[Soil::Rock, Soil::Gravel, Soil::Sand, Soil::Clay]),
         },
-        13 => Command::Section { path: name(document, random), template: random.of(&Section::SHIPPED).to_owned() },
+        13 => Command::Section {
+            path: name(document, random),
+            template: random.of(&["two-lane", "four-lane", "rail", "footpath", "pipe", "own"]).to_owned(),
+        },
         14 => Command::Water { lasso_m: random.square(80.0), level_m: 12.0 * random.next() },
         15 => Command::Heights {
             path: Some(name(document, random)),
             mode: random.of(&[HeightMode::Fair, HeightMode::Draped, HeightMode::Engineered]),
         },
+        17 => Command::Roundabout {
+            at_m: random.place(),
+            radius_m: 15.0 + 60.0 * random.next(),
+            name: None,
+            section: None,
+        },
+        18 => Command::Split { path: name(document, random), at_m: 200.0 * random.next() },
+        19 => Command::Join { path: name(document, random), with: name(document, random) },
+        20 => {
+            let (from, to) = (random.place(), random.place());
+            let middle = [0.5 * (from[0] + to[0]) + 10.0, 0.5 * (from[1] + to[1])];
+            Command::Oversketch { points_m: vec![from, middle, to], path: Some(name(document, random)), pixel_m: 1.0 }
+        }
+        21 => Command::Layer { path: name(document, random), layer: random.of(&["road", "other"]).to_owned() },
+        22 => {
+            let mut section = Section::shipped("two-lane").unwrap();
+            section.name = "own".to_owned();
+            section.right[0].width_m = 2.5 + 4.0 * random.next();
+            Command::DefineSection { section }
+        }
         _ => Command::Settings {
             structures: Some(StructureLimits {
                 bridge_above_m: 3.0 + 8.0 * random.next(),
@@ -141,6 +164,16 @@ fn is_sound(document: &Document, seed: u64) {
         assert!(free >= needs - 0.01, "seed {seed}: {free} of {needs} at {crossing:?}: {:?}", document.commands());
     }
     for result in &results.paths {
+        let [first, last] = result.profile.range_m();
+        let length = result.path.length_m();
+        assert!(first == 0.0 && (last - length).abs() < 1e-9, "seed {seed}: {first} to {last} of {length}");
+        if result.path.plan.is_closed() {
+            let [a, b] = [0.0, length].map(|s| result.profile.at(s));
+            assert!(
+                (a.height_m - b.height_m).abs() < 1e-9 && (a.grade - b.grade).abs() < 1e-9,
+                "seed {seed}: {a:?} {b:?}"
+            );
+        }
         for pillar in pillars(result, results) {
             assert!(pillar.top_m > pillar.foot_m);
             for other in results.paths.iter().filter(|o| o.path.id != result.path.id) {
@@ -207,7 +240,7 @@ fn what_follows_does_not_depend_on_the_way_there_and_undoing_leads_back_to_the_s
         let mut trail = vec![document.results().unwrap().clone()];
         for k in 0..10 {
             // First of all there have to be paths.
-            let kind = if k < 3 { 0 } else { random.below(17) };
+            let kind = if k < 3 { 0 } else { random.below(24) };
             let command = command(&document, &mut random, kind);
             match document.run(command, &NoFiles) {
                 Ok(_) => {

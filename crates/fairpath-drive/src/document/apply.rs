@@ -11,7 +11,7 @@ use crate::range::within;
 use crate::section::Section;
 use crate::terrain::{SyntheticTerrain, WaterBody, Waters};
 use fairpath_curve::{Continuity, Point, Segment, Spline};
-use fairpath_fit::{CurveEnd, EditError, Warning, cut, join};
+use fairpath_fit::{CurveEnd, EditError, Warning, join};
 use std::sync::Arc;
 
 /// Where terrains that lie in files come from: the core reads none.
@@ -35,7 +35,7 @@ impl Terrains for NoFiles {
 /// What a command did, beside the state that came of it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Outcome {
-    /// The paths that are new or changed.
+    /// The paths that are new or changed, those among them of which a part was taken away.
     pub paths: Vec<PathId>,
     /// What the caller should know.
     pub warnings: Vec<Warning>,
@@ -65,7 +65,7 @@ pub(super) fn apply(
         Command::Terrain(source) => next.terrain = Some(laid(state, source, files)?),
         Command::Sketch { points_m, layer, name, section, sketch_as, closed, pixel_m, min_radius_m } => {
             let given = name.as_deref().map(|name| free_name(state, name)).transpose()?;
-            let points = places("points_m", points_m, 2)?;
+            let points = stroke(points_m)?;
             let section = section_named(state, section.as_deref().unwrap_or("two-lane"))?;
             let scale = scale(*pixel_m, min_radius_m.unwrap_or(section.min_radius_m))?;
             let meant = match sketch_as {
@@ -83,16 +83,16 @@ pub(super) fn apply(
                     outcome = Outcome { paths: vec![result.id], warnings };
                     next.paths[path] = Arc::new(result);
                 }
-                Meant::Joined { first, second, result, warnings } => {
+                Meant::Joined { first, second, result, second_is_earlier, warnings } => {
                     outcome = Outcome { paths: vec![result.id], warnings };
-                    renamed_choices(&mut next, state.paths[second].id, result.id);
+                    renamed_choices(&mut next, state.paths[second].id, result.id, second_is_earlier);
                     next.paths[first] = Arc::new(result);
                     next.paths.remove(second);
                 }
             }
         }
         Command::Oversketch { points_m, path, pixel_m } => {
-            let points = places("points_m", points_m, 2)?;
+            let points = stroke(points_m)?;
             let i = match path {
                 Some(name) => index(state, name)?,
                 None => nearest_path(state, points[0]).ok_or_else(|| state.no_path("(under the stroke)"))?,
@@ -109,17 +109,18 @@ pub(super) fn apply(
             choices.push(choice);
             next.choices = Arc::new(choices);
         }
-        Command::Delete { lasso_m, path } => deleted(state, &mut next, lasso_m.as_deref(), path.as_deref())?,
+        Command::Delete { lasso_m, path } => {
+            deleted(state, &mut next, lasso_m.as_deref(), path.as_deref(), &mut outcome)?;
+        }
         Command::Split { path, at_m } => {
             let i = index(state, path)?;
-            let parts = cut(&state.paths[i].plan, &[*at_m])?;
-            outcome.paths = in_parts(&mut next, i, parts);
+            outcome.paths = in_parts(&mut next, i, &halves(&state.paths[i], *at_m)?);
         }
         Command::Join { path, with } => {
             let (first, second) = (index(state, path)?, index(state, with)?);
-            let result = joined(&state.paths[first], &state.paths[second])?;
+            let (result, second_is_earlier) = joined(&state.paths[first], &state.paths[second])?;
             outcome.paths.push(result.id);
-            renamed_choices(&mut next, state.paths[second].id, result.id);
+            renamed_choices(&mut next, state.paths[second].id, result.id, second_is_earlier);
             next.paths[first] = Arc::new(result);
             next.paths.remove(second);
         }
@@ -215,6 +216,20 @@ fn places(field: &'static str, points: &[[f64; 2]], least: usize) -> Result<Vec<
         return Err(CommandError::Points { field, problem });
     }
     Ok(points.iter().map(|&[x, y]| Point::new(x, y)).collect())
+}
+
+/// No stroke is longer, m: what follows from a path takes memory in proportion to its length.
+const LONGEST_STROKE_M: f64 = 1e6;
+
+/// The points of a stroke.
+fn stroke(points_m: &[[f64; 2]]) -> Result<Vec<Point>, CommandError> {
+    let points = places("points_m", points_m, 2)?;
+    let length: f64 = points.windows(2).map(|p| (p[1] - p[0]).hypot2().sqrt()).sum();
+    if length > LONGEST_STROKE_M {
+        let problem = format!("the stroke is {length:.0} m long; no path may be longer than 1000 km");
+        return Err(CommandError::Points { field: "points_m", problem });
+    }
+    Ok(points)
 }
 
 fn laid(state: &State, source: &TerrainSource, files: &dyn Terrains) -> Result<LaidTerrain, CommandError> {
@@ -329,13 +344,19 @@ fn nearest_path(state: &State, place: Point) -> Option<usize> {
     (0..state.paths.len()).min_by(|a, b| distance(a).total_cmp(&distance(b)))
 }
 
-/// What was said about crossings of one path holds for another one, which took its place.
-fn renamed_choices(next: &mut State, old: PathId, new: PathId) {
-    if next.choices.iter().any(|c| c.first == old || c.second == old) {
-        let id = |id: PathId| if id == old { new } else { id };
-        let choices = next.choices.iter().map(|c| Choice { first: id(c.first), second: id(c.second), ..*c });
-        next.choices = Arc::new(choices.collect());
+/// What was said about crossings of a path holds for the one that it became a part of. About a crossing of both it is said of the one with the earlier place, which on a path that crosses itself comes
+/// first.
+fn renamed_choices(next: &mut State, old: PathId, new: PathId, old_is_earlier: bool) {
+    if !next.choices.iter().any(|c| c.first == old || c.second == old) {
+        return;
     }
+    let id = |id: PathId| if id == old { new } else { id };
+    let renamed = |c: &Choice| {
+        let later_first = if old_is_earlier { (new, old) } else { (old, new) };
+        let meeting = if (c.first, c.second) == later_first { c.meeting.turned() } else { c.meeting };
+        Choice { first: id(c.first), second: id(c.second), meeting, ..*c }
+    };
+    next.choices = Arc::new(next.choices.iter().map(renamed).collect());
 }
 
 /// The crossing that is meant, and what is said about it.
@@ -379,6 +400,7 @@ fn deleted(
     next: &mut State,
     lasso: Option<&[[f64; 2]]>,
     name: Option<&str>,
+    outcome: &mut Outcome,
 ) -> Result<(), CommandError> {
     let only = name.map(|name| index(state, name)).transpose()?;
     let Some(lasso) = lasso else {
@@ -394,9 +416,9 @@ fn deleted(
             continue;
         }
         any = true;
-        let parts = left_over(&path.plan, &gone);
-        let at = next.paths.iter().position(|p| p.id == path.id).unwrap_or(0);
-        in_parts(next, at, parts);
+        let ranges = left_over(&path.plan, &gone);
+        let Some(at) = next.paths.iter().position(|p| p.id == path.id) else { continue };
+        outcome.paths.extend(in_parts(next, at, &ranges));
     }
     if any { Ok(()) } else { Err(CommandError::EmptyLasso) }
 }
@@ -404,8 +426,19 @@ fn deleted(
 /// No part of a path is shorter, m: what would be left of it is nothing to drive on.
 const LEAST_PART_M: f64 = 1.0;
 
-/// What is left of a plan without some stretches.
-fn left_over(plan: &Spline, gone: &[[f64; 2]]) -> Vec<Spline> {
+/// The stretches on both sides of a cut; all of a closed path, begun there.
+fn halves(path: &Path, at_m: f64) -> Result<Vec<[f64; 2]>, CommandError> {
+    let length = path.length_m();
+    if path.plan.is_closed() {
+        within("at_m", at_m, 0.0, length, "a station of the path")?;
+        return Ok(vec![[at_m, at_m + length]]);
+    }
+    within("at_m", at_m, LEAST_PART_M, length - LEAST_PART_M, "a station a metre or more from both ends of the path")?;
+    Ok(vec![[0.0, at_m], [at_m, length]])
+}
+
+/// What is left of a plan without some stretches: stations, on a closed plan perhaps beyond its end.
+fn left_over(plan: &Spline, gone: &[[f64; 2]]) -> Vec<[f64; 2]> {
     let length = plan.length();
     let mut kept: Vec<[f64; 2]> = Vec::new();
     let mut from = 0.0;
@@ -421,44 +454,58 @@ fn left_over(plan: &Spline, gone: &[[f64; 2]]) -> Vec<Spline> {
             last[1] = length + first[1];
         }
     }
-    let long = kept.into_iter().filter(|[a, b]| b - a >= LEAST_PART_M);
-    long.filter_map(|[a, b]| plan.subspline(a, b)).collect()
+    kept.retain(|[a, b]| b - a >= LEAST_PART_M);
+    kept
 }
 
 /// Puts parts of a path in its place: the first keeps its name and id. Gives the ids of all.
-fn in_parts(next: &mut State, at: usize, parts: Vec<Spline>) -> Vec<PathId> {
+fn in_parts(next: &mut State, at: usize, ranges: &[[f64; 2]]) -> Vec<PathId> {
     let whole = next.paths.remove(at);
-    let mut ids = Vec::new();
-    for (k, plan) in parts.into_iter().enumerate() {
-        let plan = Arc::new(plan);
-        let mut part = whole.on(plan, 1e-6 * (1.0 + whole.length_m()));
-        if k == 0 {
-            next.paths.insert(at, Arc::new(part));
-            ids.push(whole.id);
+    let mut parts: Vec<Arc<Path>> = Vec::new();
+    for &range in ranges {
+        let (id, name) = if parts.is_empty() {
+            (whole.id, whole.name.clone())
         } else {
-            part.id = next_id(next);
-            part.name =
-                (2..).map(|n| format!("{} ({n})", whole.name)).find(|n| next.path(n).is_none()).unwrap_or_default();
-            ids.push(part.id);
-            next.paths.push(Arc::new(part));
-        }
-    }
-    // What was said about a crossing of the whole holds for the part that it is on now.
-    if ids.len() > 1 && next.choices.iter().any(|c| c.first == whole.id || c.second == whole.id) {
-        let said = |c: &Choice| -> Vec<Choice> {
-            let of = |id: PathId| if id == whole.id { ids.clone() } else { vec![id] };
-            of(c.first)
-                .into_iter()
-                .flat_map(|first| of(c.second).into_iter().map(move |second| Choice { first, second, ..*c }))
-                .collect()
+            let free = |n: &String| next.path(n).is_none() && parts.iter().all(|p| p.name != *n);
+            let name = (2..).map(|n| format!("{} ({n})", whole.name)).find(free).unwrap_or_default();
+            (next_id(next), name)
         };
-        next.choices = Arc::new(next.choices.iter().flat_map(said).collect());
+        parts.extend(whole.part(range, id, name).map(Arc::new));
     }
+    if parts.len() > 1 && next.choices.iter().any(|c| c.first == whole.id || c.second == whole.id) {
+        next.choices = Arc::new(next.choices.iter().map(|c| said_of_parts(c, &whole, &parts)).collect());
+    }
+    let ids = parts.iter().map(|p| p.id).collect();
+    let mut parts = parts.into_iter();
+    next.paths.splice(at..at, parts.next());
+    next.paths.extend(parts);
     ids
 }
 
-/// Two paths as one: from the end of the first that is nearer to the second on to the nearer end of that.
-fn joined(first: &Path, second: &Path) -> Result<Path, EditError> {
+/// What was said about a crossing of a path, as said about the part on which it lies now.
+fn said_of_parts(choice: &Choice, whole: &Path, parts: &[Arc<Path>]) -> Choice {
+    let off = |part: &Arc<Path>| part.plan.nearest(choice.near).distance;
+    let mut near: Vec<(f64, usize)> = parts.iter().map(off).zip(0..).collect();
+    near.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let id = |i: usize| parts[i].id;
+    match (choice.first == whole.id, choice.second == whole.id) {
+        // With itself: the earlier place lies on the earlier part. Where a second part is as near, the other place is on that.
+        (true, true) => {
+            let other = near.get(1).filter(|n| n.0 <= near[0].0 + SAME_PLACE_M).map_or(near[0].1, |n| n.1);
+            let (i, j) = (near[0].1.min(other), near[0].1.max(other));
+            Choice { first: id(i), second: id(j), ..*choice }
+        }
+        (true, false) => Choice { first: id(near[0].1), ..*choice },
+        (false, true) => Choice { second: id(near[0].1), ..*choice },
+        (false, false) => *choice,
+    }
+}
+
+/// Two parts that come this near to a crossing both lead over it, m.
+const SAME_PLACE_M: f64 = 1.0;
+
+/// Two paths as one, over the two ends that are nearest to each other, in the direction of the first; and whether the second comes before it.
+fn joined(first: &Path, second: &Path) -> Result<(Path, bool), EditError> {
     let pose = |path: &Path, end| if end == CurveEnd::Start { path.plan.start_pose() } else { path.plan.end_pose() };
     let ends = [CurveEnd::Start, CurveEnd::End];
     let pairs = ends.into_iter().flat_map(|a| ends.into_iter().map(move |b| (a, b)));
@@ -475,7 +522,7 @@ fn joined(first: &Path, second: &Path) -> Result<Path, EditError> {
     result.drawn.extend(other.drawn);
     result.breaks.extend(other.breaks);
     result.speeds.extend(other.speeds);
-    Ok(result)
+    Ok((result, a == CurveEnd::Start))
 }
 
 /// A circle that is gone round against the clock, as traffic on the right does.

@@ -80,7 +80,7 @@ pub enum Command {
         /// Where, arc length from its start, m.
         at_m: f64,
     },
-    /// Makes one path of two: from the end of the first on to the nearer end of the second.
+    /// Makes one path of two, over the two ends that are nearest to each other, in the direction of the first.
     Join {
         /// The first, which keeps its name.
         path: String,

@@ -5,7 +5,7 @@ use super::state::{FoliageRegion, LaidTerrain, State};
 use crate::furniture::{Sign, Tree, signs, stopping_arms, tiles_of, trees_on};
 use crate::ground::{CrossSection, Ground, Hits, TileIndex, cross_sections, hits};
 use crate::network::{
-    Arm, Crossing, HeightMode, Junction, Path, PathId, Site, Structure, Unordered, alone, crossings_between,
+    Arm, Crossing, HeightMode, Junction, Path, PathId, PathPlace, Site, Structure, Unordered, alone, crossings_between,
     crossings_within, decide, engineered, junctions, profile_with, structures, wanted_heights,
 };
 use crate::profile::Profile;
@@ -118,10 +118,14 @@ pub(super) fn derive(before: Option<(&State, &Results)>, state: &State, terrain:
         let old = old_path(path.id);
         let elevation = &elevations[i];
         let same_heights = old.is_some_and(|old| same_course(path) && old.profile == elevation.profile);
-        // How long a bridge is depends on the path below it.
+        // Whether there is a bridge, and how long it is, depends on the path below it.
         let same_others = || {
             let places = crossings_of[i].iter().flat_map(Crossing::places);
-            places.into_iter().all(|place| state.path_of(place.path).is_some_and(same_course))
+            places.into_iter().all(|place| {
+                let before = old_path(place.path).map(|old| &old.profile);
+                let now = index(place.path).map(|j| &elevations[j].profile);
+                state.path_of(place.path).is_some_and(same_course) && before == now
+            })
         };
         let as_before = |old: &&Arc<PathResult>| {
             old.crossings == crossings_of[i]
@@ -137,7 +141,10 @@ pub(super) fn derive(before: Option<(&State, &Results)>, state: &State, terrain:
             Some(old) if same_heights => old.profile.clone(),
             _ => elevation.profile.clone(),
         };
-        let other = |place: crate::network::PathPlace| state.path_of(place.path).map(Arc::as_ref);
+        let other = |place: PathPlace| {
+            let j = index(place.path)?;
+            Some((state.paths[j].as_ref(), elevations[j].profile.as_ref()))
+        };
         let structures = structures(
             path,
             &profile,

@@ -95,7 +95,12 @@ impl Document {
             let results = results.as_ref().map_or(&[][..], |r| &r.crossings);
             return Err(error::ring(unordered, |c| describe(&state, results, c)));
         }
+        // Told once, and again only if the reason is another one.
+        let told: Vec<_> = now.results.iter().flat_map(|r| r.infeasible()).map(|(p, reason)| (p.id, reason)).collect();
         for (path, reason) in results.iter().flat_map(Results::infeasible) {
+            if told.contains(&(path.id, reason)) {
+                continue;
+            }
             let code = "not-engineered".to_owned();
             let text = format!("path {:?} follows the ground instead of being engineered: {reason}", path.name);
             outcome.warnings.push(Warning { code, text });

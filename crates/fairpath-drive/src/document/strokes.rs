@@ -24,7 +24,7 @@ pub(super) enum Meant {
     /// One that was there, on another course.
     Changed { path: usize, result: Path, warnings: Vec<Warning> },
     /// Two that were there and the stroke between them as one; the second is gone.
-    Joined { first: usize, second: usize, result: Path, warnings: Vec<Warning> },
+    Joined { first: usize, second: usize, result: Path, second_is_earlier: bool, warnings: Vec<Warning> },
 }
 
 /// An end of a path at which a stroke goes on.
@@ -160,7 +160,8 @@ fn joined(paths: &[Arc<Path>], a: Continued, b: Continued, points: &[Point], sca
         let (s, t) = (station(end.point), station(*points.last()?));
         result.breaks.push([s.min(t), s.max(t)]);
     }
-    Some(Meant::Joined { first: a.path, second: b.path, result, warnings })
+    let second_is_earlier = own_end == CurveEnd::Start;
+    Some(Meant::Joined { first: a.path, second: b.path, result, second_is_earlier, warnings })
 }
 
 /// A path that a stroke was drawn over, from one place of it to another, running along it at both ends.

@@ -96,7 +96,10 @@ pub(crate) fn trees_on(
 
 /// The tiles that a region lies over.
 pub(crate) fn tiles_of(grid: &FineGrid, region: &FoliageRegion) -> Vec<TileIndex> {
-    let Some([columns, rows]) = grid.samples_around(&region.outline) else { return Vec::new() };
+    // A tile reaches up to the first sample of the next one.
+    let step = grid.spacing_m();
+    let around: Vec<Point> = region.outline.iter().flat_map(|p| [*p - step, *p + step]).collect();
+    let Some([columns, rows]) = grid.samples_around(&around) else { return Vec::new() };
     let (first, _) = grid.tile_of([columns[0], rows[0]]);
     let (last, _) = grid.tile_of([columns[1], rows[1]]);
     let mut tiles = Vec::new();

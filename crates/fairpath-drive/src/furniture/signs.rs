@@ -3,6 +3,7 @@
 use crate::network::{Arm, Junction, Path, PathId};
 use crate::profile::Profile;
 use crate::rules::DesignRules;
+use crate::section::{Lane, LaneKind};
 use fairpath_curve::Kind;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -65,7 +66,8 @@ pub(crate) fn signs(
     }
     let mut found = Vec::new();
     let length = path.length_m();
-    let both = [(true, !path.section.right.is_empty()), (false, !path.section.left.is_empty())];
+    let drives = |lanes: &[Lane]| lanes.iter().any(|lane| lane.kind == LaneKind::Driving);
+    let both = [(true, drives(&path.section.right)), (false, drives(&path.section.left))];
     let directions: Vec<bool> = both.into_iter().filter(|d| d.1).map(|d| d.0).collect();
     let mut add = |kind, station_m: f64, forward| {
         if directions.contains(&forward) {
@@ -113,8 +115,10 @@ pub(crate) fn signs(
             .any(|(id, [a, b])| *id == s.path && s.station_m > a + INSIDE_M && s.station_m < b - INSIDE_M)
     };
     found.retain(|s| s.kind == SignKind::Stop || !within(s));
-    found.sort_by(|a, b| a.station_m.total_cmp(&b.station_m).then(a.kind.cmp(&b.kind)).then(a.forward.cmp(&b.forward)));
-    found.dedup_by(|b, a| a.kind == b.kind && a.forward == b.forward && b.station_m - a.station_m < NEAR_M);
+    let by_station = |a: &Sign, b: &Sign| a.station_m.total_cmp(&b.station_m);
+    found.sort_by(|a, b| (a.kind, a.forward).cmp(&(b.kind, b.forward)).then(by_station(a, b)));
+    found.dedup_by(|b, a| (a.kind, a.forward) == (b.kind, b.forward) && b.station_m - a.station_m < NEAR_M);
+    found.sort_by(|a, b| by_station(a, b).then((a.kind, a.forward).cmp(&(b.kind, b.forward))));
     found
 }
 

@@ -53,19 +53,17 @@ pub(crate) fn alone(path: &Path, ground: &Heightfield, waters: &Waters) -> Profi
         .map(|i| (i as f64 - around as f64) * step)
         .map(|station| [station, height(station)])
         .collect();
-    let whole = |profile: Result<Profile, ProfileError>| {
-        let profile = profile.expect("stations ascend and heights are finite");
-        if closed { closed_up(&profile, length) } else { ends_exactly(&profile, length) }
-    };
+    let whole = |profile: &Profile| if closed { closed_up(profile, length) } else { ends_exactly(profile, length) };
+    let ascending = "stations ascend and heights are finite";
     let profile = if path.heights == HeightMode::Draped {
-        whole(Profile::catmull_rom(&points))
+        Profile::catmull_rom(&points).expect(ascending)
     } else {
         let mut weights = vec![1.0; points.len()];
         if !closed {
             // A path begins and ends on the ground.
             (weights[0], weights[count]) = (END_WEIGHT, END_WEIGHT);
         }
-        let fair = |wave: f64| whole(smoothed(&points, &weights, libm::pow(wave / TAU, 4.0) / step));
+        let fair = |wave: f64| smoothed(&points, &weights, libm::pow(wave / TAU, 4.0) / step).expect(ascending);
         let too_steep = |profile: &Profile| profile.steepest([0.0, length]).1.abs() > path.section.max_grade;
         // What is still too steep is made fairer, as long as that helps without leaving the ground altogether.
         let mut wave = wave;
@@ -76,21 +74,31 @@ pub(crate) fn alone(path: &Path, ground: &Heightfield, waters: &Waters) -> Profi
         }
         profile
     };
-    path.drawn.iter().fold(profile, |profile, drawn| {
-        let part = drawn_profile(&drawn.points_m);
-        let transition = TRANSITION_M_PER_KMH * path.section.speed_kmh;
-        part.and_then(|part| profile.with_part(&part, transition).ok()).unwrap_or(profile)
-    })
+    let transition = TRANSITION_M_PER_KMH * path.section.speed_kmh;
+    // Around a closed path what was drawn before its end leads over to its start.
+    let turns = if closed { &[-1.0, 0.0, 1.0][..] } else { &[0.0][..] };
+    let drawn = path.drawn.iter().flat_map(|drawn| turns.iter().map(move |turn| (drawn, turn * length)));
+    let [first, last] = profile.range_m();
+    let drawn = drawn.filter(|(drawn, turn)| {
+        let at = |point: Option<&[f64; 2]>| point.map_or(f64::NAN, |p| p[0] + turn);
+        at(drawn.points_m.first()) < last && at(drawn.points_m.last()) > first
+    });
+    let profile = drawn.fold(profile, |profile, (drawn, turn)| {
+        let points: Vec<[f64; 2]> = drawn.points_m.iter().map(|[s, z]| [s + turn, *z]).collect();
+        let part = drawn_profile(&points).expect("a drawing has two stations or more");
+        profile.with_part(&part, transition).expect("the drawing lies on the path")
+    });
+    whole(&profile)
 }
 
 /// Drawn heights as a profile: evened out, since a hand trembles, but through the ends of what was drawn.
-fn drawn_profile(points: &[[f64; 2]]) -> Option<Profile> {
-    let extent = points.last()?[0] - points.first()?[0];
+fn drawn_profile(points: &[[f64; 2]]) -> Result<Profile, ProfileError> {
+    let extent = points.last().map_or(0.0, |p| p[0]) - points.first().map_or(0.0, |p| p[0]);
     let mut weights = vec![1.0; points.len()];
     (weights[0], weights[points.len() - 1]) = (100.0, 100.0);
     let wave = 0.25 * extent;
     let step = extent / points.len() as f64;
-    smoothed(points, &weights, libm::pow(wave / TAU, 4.0) / step.max(1e-6)).ok()
+    smoothed(points, &weights, libm::pow(wave / TAU, 4.0) / step.max(1e-6))
 }
 
 /// The part of a profile around a closed path that is gone through once, ending as it begins.

@@ -98,8 +98,6 @@ fn road(path: &Path, site: &Site<'_>) -> EngineeredRoad {
     let kmh = path.speed_limits().iter().map(|l| l.1).fold(0.0, f64::max);
     let rule = site.rules.at(kmh);
     let soil = site.soils.at(path.plan.point_at(0.5 * length_m));
-    // Drawn heights are fixed points at their ends and where they turn.
-    let fixed = path.drawn.iter().flat_map(|d| &d.points_m);
     EngineeredRoad {
         name: path.name.clone(),
         length_m,
@@ -112,15 +110,40 @@ fn road(path: &Path, site: &Site<'_>) -> EngineeredRoad {
             cut_weight: 1.0,
             fill_weight: 1.0,
         },
-        fixed: fixed
-            .map(|[station_m, height_m]| FixedPoint { station_m: *station_m, height_m: *height_m, grade: None })
-            .collect(),
+        fixed: fixed_points(path),
         bounds: wet(path, &ground, site.waters),
         start_grade: None,
         end_grade: None,
         stretches: Vec::new(),
         ground,
     }
+}
+
+/// Two heights of one drawing nearer to each other than this leave no room for a vertical curve between them, m.
+const FIXED_APART_M: f64 = 4.0 * KNOTS_M;
+
+/// Of drawn heights the ends, and highest and lowest places between them; a later drawing counts before an earlier one that it covers.
+fn fixed_points(path: &Path) -> Vec<FixedPoint> {
+    let mut covered: Vec<[f64; 2]> = Vec::new();
+    let mut fixed = Vec::new();
+    for drawn in path.drawn.iter().rev() {
+        let points = &drawn.points_m;
+        let (Some(first), Some(last)) = (points.first(), points.last()) else { continue };
+        let mut before = f64::NEG_INFINITY;
+        for (i, &[station_m, height_m]) in points.iter().enumerate() {
+            let is_end = i == 0 || i + 1 == points.len();
+            let turns = !is_end && (points[i - 1][1] < height_m) == (points[i + 1][1] < height_m);
+            let alone = station_m - before >= FIXED_APART_M && last[0] - station_m >= FIXED_APART_M;
+            let hidden = covered.iter().any(|[a, b]| (*a..=*b).contains(&station_m));
+            if !hidden && (is_end || (turns && alone)) {
+                fixed.push(FixedPoint { station_m, height_m, grade: None });
+                before = station_m;
+            }
+        }
+        // Beside a later drawing there must be room for a vertical curve.
+        covered.push([first[0] - FIXED_APART_M, last[0] + FIXED_APART_M]);
+    }
+    fixed
 }
 
 /// Over water a road keeps its freeboard.

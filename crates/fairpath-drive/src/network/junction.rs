@@ -224,6 +224,7 @@ fn merged<'a>(spans: Vec<(PathId, [f64; 2])>, path_of: &dyn Fn(PathId) -> Option
             _ => out.push((id, [from, to])),
         }
     }
+    over_the_seam(&mut out, path_of);
     for (id, [from, to]) in &mut out {
         let Some(path) = path_of(*id).filter(|p| !p.plan.is_closed()) else { continue };
         let length = path.length_m();
@@ -235,6 +236,26 @@ fn merged<'a>(spans: Vec<(PathId, [f64; 2])>, path_of: &dyn Fn(PathId) -> Option
         }
     }
     out
+}
+
+/// On a closed path the first span follows the last: where they are one, it begins before the path's end and ends beyond it; a span that leaves too little of the path takes all of it.
+fn over_the_seam<'a>(spans: &mut Vec<(PathId, [f64; 2])>, path_of: &dyn Fn(PathId) -> Option<&'a Path>) {
+    let ids: std::collections::BTreeSet<PathId> = spans.iter().map(|s| s.0).collect();
+    for id in ids {
+        let Some(length) = path_of(id).filter(|p| p.plan.is_closed()).map(Path::length_m) else { continue };
+        let own: Vec<usize> = (0..spans.len()).filter(|&i| spans[i].0 == id).collect();
+        let (Some(&first), Some(&last)) = (own.first(), own.last()) else { continue };
+        let beyond = spans[first].1.map(|s| s + length);
+        if beyond[0] >= spans[last].1[1] + LEAST_ROAD_M {
+            continue;
+        }
+        if first == last {
+            spans[last].1[1] = beyond[0];
+        } else {
+            spans[last].1[1] = spans[last].1[1].max(beyond[1]);
+            spans.remove(first);
+        }
+    }
 }
 
 /// A driving lane of a side.

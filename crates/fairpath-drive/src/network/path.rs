@@ -79,7 +79,12 @@ impl Path {
             let near = plan.nearest(self.plan.point_at(station));
             (near.distance <= reach_m).then(|| plan.station(near.segment, near.s))
         };
+        let whole = self.length_m();
         let range = |[from, to]: [f64; 2]| {
+            // All round a closed path is all round it wherever it begins.
+            if self.plan.is_closed() && to - from >= whole - 1e-6 {
+                return Some([0.0, plan.length()]);
+            }
             let (a, b) = (moved(from)?, moved(to)?);
             (a != b).then(|| [a.min(b), a.max(b)])
         };
@@ -103,10 +108,52 @@ impl Path {
         }
     }
 
-    /// Part of the path, with what was said about it.
+    /// The stretch of the path between two stations, with what was said about it: of what reaches beyond, the part that lies on it. On a closed path the second may lie beyond its end. Nothing if the
+    /// stretch is empty.
     #[must_use]
     pub fn part(&self, [from, to]: [f64; 2], id: PathId, name: String) -> Option<Self> {
         let plan = Arc::new(self.plan.subspline(from, to)?);
-        Some(Self { id, name, ..self.on(plan, 1e-6 * (1.0 + self.length_m())) })
+        let length = self.length_m();
+        let turns = if self.plan.is_closed() { &[0.0, length][..] } else { &[0.0][..] };
+        let clipped = |[a, b]: [f64; 2]| {
+            let on_it = turns.iter().map(move |turn| [(a + turn).max(from) - from, (b + turn).min(to) - from]);
+            on_it.filter(|[a, b]| a < b).collect::<Vec<_>>()
+        };
+        let speeds = self.speeds.iter().flat_map(|zone| {
+            let stretches = clipped([zone.from_m, zone.to_m]).into_iter();
+            stretches.map(|[from_m, to_m]| SpeedZone { from_m, to_m, ..*zone })
+        });
+        let drawn = self
+            .drawn
+            .iter()
+            .flat_map(|drawn| turns.iter().filter_map(|turn| drawn.part([from - turn, to - turn])).collect::<Vec<_>>());
+        Some(Self {
+            id,
+            name,
+            speeds: speeds.collect(),
+            drawn: drawn.collect(),
+            breaks: self.breaks.iter().flat_map(|&b| clipped(b)).collect(),
+            plan,
+            ..self.clone()
+        })
+    }
+}
+
+impl DrawnHeights {
+    /// What was drawn between two stations, which become 0 and their difference; nothing if that is no stretch.
+    fn part(&self, [from, to]: [f64; 2]) -> Option<Self> {
+        let first = self.points_m.first()?[0].max(from);
+        let last = self.points_m.last()?[0].min(to);
+        let height = |station: f64| {
+            let k = self.points_m.partition_point(|p| p[0] < station).clamp(1, self.points_m.len() - 1);
+            let [a, b] = [self.points_m[k - 1], self.points_m[k]];
+            a[1] + (b[1] - a[1]) * (station - a[0]) / (b[0] - a[0])
+        };
+        let between = self.points_m.iter().filter(|p| p[0] > first && p[0] < last).copied();
+        (first < last).then(|| {
+            let ends = [[first, height(first)], [last, height(last)]];
+            let points = std::iter::once(ends[0]).chain(between).chain([ends[1]]);
+            Self { points_m: points.map(|[s, z]| [s - from, z]).collect() }
+        })
     }
 }

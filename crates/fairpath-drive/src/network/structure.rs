@@ -65,17 +65,20 @@ const BESIDE_M: f64 = 2.0;
 /// An abutment at the water stands this far inland, m.
 const INLAND_M: f64 = 4.0;
 
-/// The bridges and tunnels of a path, in the order of their stations. `other` gives the paths that it crosses.
+/// The bridges and tunnels of a path, in the order of their stations; one that leads over the seam of a closed path is two. `other` gives the paths that it crosses, with their profiles.
 pub(crate) fn structures<'a>(
     path: &Path,
     profile: &Profile,
     crossings: &[Crossing],
-    other: impl Fn(PathPlace) -> Option<&'a Path>,
+    other: impl Fn(PathPlace) -> Option<(&'a Path, &'a Profile)>,
     ground: &Heightfield,
     waters: &Waters,
     limits: &StructureLimits,
 ) -> Vec<Structure> {
-    let length = path.length_m();
+    if !path.section.shapes_ground {
+        return Vec::new();
+    }
+    let (length, closed) = (path.length_m(), path.plan.is_closed());
     let count = (length / STEP_M).ceil().max(1.0) as usize;
     let step = length / count as f64;
     let station = |i: usize| length * i as f64 / count as f64;
@@ -87,41 +90,55 @@ pub(crate) fn structures<'a>(
             (profile.at(station(i)).height_m - z, wet)
         })
         .collect();
+    // A closed path is gone round twice, so that what leads over its seam is seen in one piece.
+    let turns = if closed { 2 } else { 1 };
+    let on = |i: usize| if i > count { at[i - count] } else { at[i] };
+    let ranges = |begins: &dyn Fn(usize) -> bool, ends: &dyn Fn(usize) -> bool| {
+        let mut found = stretches(turns * count, begins, ends);
+        let around = found.iter().any(|r| r[1] - r[0] >= count);
+        if closed && around {
+            return vec![[0, count]];
+        }
+        // What is under way at the seam is found whole once more, and what begins beyond it is found a second time.
+        found.retain(|r| !closed || (r[0] > 0 && r[0] <= count));
+        found
+    };
     let mut found = Vec::new();
-    if path.section.shapes_ground {
-        for (carrier, limit, sign) in
-            [(Carrier::Bridge, limits.bridge_above_m, 1.0), (Carrier::Tunnel, limits.tunnel_below_m, -1.0)]
-        {
-            let above = |i: usize| sign * at[i].0;
-            for range in stretches(count, |i| above(i) > limit, |i| above(i) > limits.end_share * limit) {
-                let [a, b] = range.map(station);
-                if b - a >= limits.least_length_m {
-                    let most_m = (range[0]..=range[1]).map(above).fold(0.0, f64::max);
-                    found.push(Structure { carrier, from_m: a, to_m: b, most_m, over_water: false, over_path: false });
-                }
+    for (carrier, limit, sign) in
+        [(Carrier::Bridge, limits.bridge_above_m, 1.0), (Carrier::Tunnel, limits.tunnel_below_m, -1.0)]
+    {
+        let above = |i: usize| sign * on(i).0;
+        for range in ranges(&|i| above(i) > limit, &|i| above(i) > limits.end_share * limit) {
+            let [a, b] = range.map(station);
+            if b - a >= limits.least_length_m {
+                let most_m = (range[0]..=range[1]).map(above).fold(0.0, f64::max);
+                found.push(Structure { carrier, from_m: a, to_m: b, most_m, over_water: false, over_path: false });
             }
         }
-        // Over water, whatever its height; a path under water is a tunnel already or goes through it.
-        for range in stretches(count, |i| at[i].1 && at[i].0 > 0.0, |i| at[i].1) {
-            let most_m = (range[0]..=range[1]).map(|i| at[i].0).fold(0.0, f64::max);
-            let from_m = (station(range[0]) - INLAND_M.max(step)).max(0.0);
-            let to_m = (station(range[1]) + INLAND_M.max(step)).min(length);
-            found.push(Structure {
-                carrier: Carrier::Bridge,
-                from_m,
-                to_m,
-                most_m,
-                over_water: true,
-                over_path: false,
-            });
-        }
-        found.extend(crossings.iter().filter_map(|c| over_path(path, c, &other, profile, ground)));
     }
-    united(found, limits, length)
+    // Over water, whatever its height; a path under water is a tunnel already or goes through it.
+    for range in ranges(&|i| on(i).1 && on(i).0 > 0.0, &|i| on(i).1) {
+        let most_m = (range[0]..=range[1]).map(|i| on(i).0).fold(0.0, f64::max);
+        let inland = INLAND_M.max(step);
+        let [from_m, to_m] = [station(range[0]) - inland, station(range[1]) + inland];
+        let carrier = Carrier::Bridge;
+        found.push(Structure { carrier, from_m, to_m, most_m, over_water: true, over_path: false });
+    }
+    found.extend(crossings.iter().filter_map(|c| over_path(path, c, &other, profile, ground, limits)));
+    for s in &mut found {
+        if closed {
+            let turn = (s.from_m / length).floor() * length;
+            (s.from_m, s.to_m) = (s.from_m - turn, s.to_m - turn);
+        } else {
+            (s.from_m, s.to_m) = (s.from_m.max(0.0), s.to_m.min(length));
+        }
+    }
+    let found = united(found, limits, closed.then_some(length));
+    bridges_first(found, limits, length)
 }
 
 /// Ranges in which `ends` holds throughout and `begins` somewhere.
-fn stretches(count: usize, begins: impl Fn(usize) -> bool, ends: impl Fn(usize) -> bool) -> Vec<[usize; 2]> {
+fn stretches(count: usize, begins: &dyn Fn(usize) -> bool, ends: &dyn Fn(usize) -> bool) -> Vec<[usize; 2]> {
     let mut found = Vec::new();
     let mut from = None;
     for i in 0..=count + 1 {
@@ -129,7 +146,7 @@ fn stretches(count: usize, begins: impl Fn(usize) -> bool, ends: impl Fn(usize) 
             from = from.or(Some(i));
         } else if let Some(first) = from.take() {
             let last = i - 1;
-            if (first..=last).any(&begins) {
+            if (first..=last).any(begins) {
                 found.push([first, last]);
             }
         }
@@ -137,68 +154,104 @@ fn stretches(count: usize, begins: impl Fn(usize) -> bool, ends: impl Fn(usize) 
     found
 }
 
-/// The bridge on which a path passes over another one; none where the other is in the depth of a tunnel.
+/// The bridge on which a path passes over another one, as far as it may reach beyond the path's ends; none where the other is in the depth of a tunnel.
 fn over_path<'a>(
     path: &Path,
     crossing: &Crossing,
-    other: impl Fn(PathPlace) -> Option<&'a Path>,
+    other: impl Fn(PathPlace) -> Option<(&'a Path, &'a Profile)>,
     profile: &Profile,
     ground: &Heightfield,
+    limits: &StructureLimits,
 ) -> Option<Structure> {
     let [upper, lower] = crossing.upper_lower()?;
     if upper.path != path.id {
         return None;
     }
-    let below = other(lower)?;
+    let (below, below_profile) = other(lower)?;
+    let natural = ground.height(crossing.point);
+    if natural - below_profile.at(lower.station_m).height_m > limits.tunnel_below_m {
+        return None;
+    }
     let (own, cross) = (path.plan.tangent_at(upper.station_m), below.plan.tangent_at(lower.station_m));
     // At a small angle it takes a long bridge, but not one without end.
     let sine = own.cross(cross).abs().max(0.17);
     let half = (0.5 * below.section.width_m() + 0.5 * path.section.width_m() * own.dot(cross).abs()) / sine + BESIDE_M;
-    let length = path.length_m();
-    let most_m = profile.at(upper.station_m).height_m - ground.height(crossing.point);
-    let (from_m, to_m) = ((upper.station_m - half).max(0.0), (upper.station_m + half).min(length));
+    let most_m = profile.at(upper.station_m).height_m - natural;
     Some(Structure {
         carrier: Carrier::Bridge,
-        from_m,
-        to_m,
+        from_m: upper.station_m - half,
+        to_m: upper.station_m + half,
         most_m: most_m.max(0.0),
         over_water: false,
         over_path: true,
     })
 }
 
-/// Those of one kind that overlap or nearly touch are one; a bridge goes before a tunnel where both would be.
-fn united(mut found: Vec<Structure>, limits: &StructureLimits, length: f64) -> Vec<Structure> {
-    found.sort_by(|a, b| a.from_m.total_cmp(&b.from_m).then(a.to_m.total_cmp(&b.to_m)));
-    let mut kept: Vec<Structure> = Vec::new();
-    for carrier in [Carrier::Bridge, Carrier::Tunnel] {
-        let mut last: Option<Structure> = None;
-        for s in found.iter().filter(|s| s.carrier == carrier) {
-            match &mut last {
-                Some(l) if s.from_m - l.to_m <= limits.gap_m => {
-                    l.to_m = l.to_m.max(s.to_m);
-                    l.most_m = l.most_m.max(s.most_m);
-                    l.over_water |= s.over_water;
-                    l.over_path |= s.over_path;
-                }
-                _ => kept.extend(last.replace(*s)),
-            }
-        }
-        kept.extend(last);
+impl Structure {
+    /// As long as this and another one together.
+    fn and(&mut self, other: &Self, turn: f64) {
+        self.from_m = self.from_m.min(other.from_m + turn);
+        self.to_m = self.to_m.max(other.to_m + turn);
+        self.most_m = self.most_m.max(other.most_m);
+        self.over_water |= other.over_water;
+        self.over_path |= other.over_path;
     }
-    let bridges: Vec<Structure> = kept.iter().copied().filter(|s| s.carrier == Carrier::Bridge).collect();
-    let mut all = bridges.clone();
-    for tunnel in kept.iter().filter(|s| s.carrier == Carrier::Tunnel) {
-        // What is left of the tunnel between the bridges.
-        let mut from = tunnel.from_m;
-        for end in bridges.iter().filter(|b| b.to_m > tunnel.from_m && b.from_m < tunnel.to_m) {
-            if end.from_m - from >= limits.least_length_m {
-                all.push(Structure { from_m: from, to_m: end.from_m, ..*tunnel });
+}
+
+/// Those of one kind that overlap or nearly touch are one. On a closed path of the given length what leads over the seam is cut there.
+fn united(mut found: Vec<Structure>, limits: &StructureLimits, closed: Option<f64>) -> Vec<Structure> {
+    found.sort_by(|a, b| a.from_m.total_cmp(&b.from_m).then(a.to_m.total_cmp(&b.to_m)));
+    let mut all = Vec::new();
+    for carrier in [Carrier::Bridge, Carrier::Tunnel] {
+        let mut kept: Vec<Structure> = Vec::new();
+        for s in found.iter().filter(|s| s.carrier == carrier) {
+            match kept.last_mut() {
+                Some(last) if s.from_m - last.to_m <= limits.gap_m => last.and(s, 0.0),
+                _ => kept.push(*s),
             }
-            from = from.max(end.to_m);
         }
-        if tunnel.to_m - from >= limits.least_length_m.min(length) {
-            all.push(Structure { from_m: from, to_m: tunnel.to_m, ..*tunnel });
+        let Some(length) = closed else {
+            all.extend(kept);
+            continue;
+        };
+        // The first follows the last.
+        while kept.len() > 1 && kept[0].from_m + length - kept[kept.len() - 1].to_m <= limits.gap_m {
+            let first = kept.remove(0);
+            if let Some(last) = kept.last_mut() {
+                last.and(&first, length);
+            }
+        }
+        for s in kept {
+            if s.to_m - s.from_m >= length {
+                all.push(Structure { from_m: 0.0, to_m: length, ..s });
+                continue;
+            }
+            all.push(Structure { to_m: s.to_m.min(length), ..s });
+            all.extend((s.to_m > length).then(|| Structure { from_m: 0.0, to_m: s.to_m - length, ..s }));
+        }
+    }
+    all
+}
+
+/// A bridge goes before a tunnel where both would be; of the tunnel stays what lies between bridges.
+fn bridges_first(found: Vec<Structure>, limits: &StructureLimits, length: f64) -> Vec<Structure> {
+    let (mut bridges, tunnels): (Vec<Structure>, Vec<Structure>) =
+        found.into_iter().partition(|s| s.carrier == Carrier::Bridge);
+    bridges.sort_by(|a, b| a.from_m.total_cmp(&b.from_m));
+    let mut all = bridges.clone();
+    for tunnel in tunnels {
+        let mut from = tunnel.from_m;
+        let in_the_way = bridges.iter().filter(|b| b.to_m > tunnel.from_m && b.from_m < tunnel.to_m);
+        let ends: Vec<[f64; 2]> =
+            in_the_way.map(|b| [b.from_m, b.to_m]).chain([[tunnel.to_m, f64::INFINITY]]).collect();
+        for [until, on] in ends {
+            // Cut off at the seam it goes on there, however short.
+            let whole = [from, until] == [tunnel.from_m, tunnel.to_m];
+            let at_seam = whole && (tunnel.from_m == 0.0 || tunnel.to_m == length);
+            if until - from >= limits.least_length_m.min(length) || (at_seam && until > from) {
+                all.push(Structure { from_m: from, to_m: until, ..tunnel });
+            }
+            from = from.max(on);
         }
     }
     all.sort_by(|a, b| a.from_m.total_cmp(&b.from_m));

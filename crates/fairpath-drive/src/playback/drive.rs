@@ -78,7 +78,7 @@ const SPEED_STEP_M: f64 = 2.0;
 const CRAWL_M_S: f64 = 1.0;
 
 /// A drive along a path from one station to another, with the path's direction if the first is the lesser. If `on` is set and the range ends where the path does, at an intersection,
-/// the drive goes on along the straightest way, until a road ends or comes again. `step_s` is from one moment to the next.
+/// the drive goes on along the straightest way, until a road ends or comes again; on a closed path it ends after one time round. `step_s` is from one moment to the next.
 ///
 /// # Errors
 /// When there is no such path, the range is empty, or the step is out of range.
@@ -157,10 +157,17 @@ fn follow(results: &Results, first: &PathResult, forward: bool, legs: &mut Vec<L
         });
         let out = junction.arms[way.to];
         let Some(next) = results.path(out.path) else { return };
-        let to = if out.forward { next.path.length_m() } else { 0.0 };
-        let Some(leg) = leg(next, [out.station_m, to]) else { return };
-        driven += way.plan.length() + leg.plan.length();
-        legs.push(leg);
+        let length = next.path.length_m();
+        let [to, again] = if out.forward { [length, 0.0] } else { [0.0, length] };
+        let Some(leg_to) = leg(next, [out.station_m, to]) else { return };
+        driven += way.plan.length() + leg_to.plan.length();
+        legs.push(leg_to);
+        if next.path.plan.is_closed() {
+            // Straight on is round and round: once is enough.
+            legs.extend(leg(next, [again, out.station_m]));
+            paths.push(out.path);
+            return;
+        }
         paths.push(out.path);
         at = (out.path, out.forward);
         if !seen.insert(at) {
