@@ -64,6 +64,9 @@ impl fmt::Debug for Profile {
     }
 }
 
+/// No piece that comes of others is shorter, m: what rounding makes of equal stations would have any bend.
+const LEAST_PIECE_M: f64 = 1e-6;
+
 /// What a profile is at a station.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Elevation {
@@ -225,9 +228,10 @@ impl Profile {
         let within = |knot: &&Knot| knot.station_m > first && knot.station_m < last;
         let mut stations: Vec<f64> =
             self.knots.iter().chain(&other.knots).filter(within).map(|knot| knot.station_m).collect();
+        stations.retain(|s| s - first > LEAST_PIECE_M && last - s > LEAST_PIECE_M);
         stations.extend([first, last]);
         stations.sort_by(f64::total_cmp);
-        stations.dedup();
+        stations.dedup_by(|later, earlier| *later - *earlier <= LEAST_PIECE_M);
         let knot = |station_m: f64| {
             let (a, b) = (self.at(station_m), other.at(station_m));
             Knot { station_m, height_m: a.height_m + b.height_m, grade: a.grade + b.grade }
@@ -244,7 +248,8 @@ impl Profile {
             let at = self.at(station);
             Knot { station_m: station - from_m, height_m: at.height_m, grade: at.grade }
         };
-        let between = self.knots.iter().filter(|knot| knot.station_m > from_m && knot.station_m < to_m);
+        let within = |knot: &&Knot| knot.station_m - from_m > LEAST_PIECE_M && to_m - knot.station_m > LEAST_PIECE_M;
+        let between = self.knots.iter().filter(within);
         let moved = between.map(|knot| Knot { station_m: knot.station_m - from_m, ..*knot });
         Self::new(std::iter::once(end(from_m)).chain(moved).chain([end(to_m)]).collect())
     }
@@ -273,17 +278,18 @@ impl Profile {
             let at = profile.at(station_m);
             Knot { station_m, height_m: at.height_m, grade: at.grade }
         };
-        let mut knots: Vec<Knot> = self.knots.iter().copied().filter(|k| k.station_m < before).collect();
-        if before < from {
+        let mut knots: Vec<Knot> =
+            self.knots.iter().copied().filter(|k| before - k.station_m > LEAST_PIECE_M).collect();
+        if from - before > LEAST_PIECE_M {
             knots.push(knot(self, before));
         }
         knots.push(knot(part, from));
         knots.extend(part.knots.iter().copied().filter(|k| k.station_m > from && k.station_m < to));
         knots.push(knot(part, to));
-        if after > to {
+        if after - to > LEAST_PIECE_M {
             knots.push(knot(self, after));
         }
-        knots.extend(self.knots.iter().copied().filter(|k| k.station_m > after));
+        knots.extend(self.knots.iter().copied().filter(|k| k.station_m - after > LEAST_PIECE_M));
         Self::new(knots)
     }
 }

@@ -85,8 +85,7 @@ fn three_roads_can_pass_over_each_other_in_a_ring() {
     assert_eq!(results.crossings.len(), 3, "{:?}", results.crossings);
     for crossing in &results.crossings {
         let [upper, lower] = crossing.upper_lower().expect("each was set");
-        let height =
-            |place: fairpath_drive::PathPlace| results.path(place.path).unwrap().profile.at(place.station_m).height_m;
+        let height = |place: PathPlace| results.path(place.path).unwrap().profile.at(place.station_m).height_m;
         let free = height(upper) - height(lower);
         assert!(free > 5.5 - 1e-6, "{free} at {crossing:?}");
     }

@@ -227,7 +227,7 @@ fn united(mut found: Vec<Structure>, limits: &StructureLimits, closed: Option<f6
                 continue;
             }
             all.push(Structure { to_m: s.to_m.min(length), ..s });
-            all.extend((s.to_m > length).then(|| Structure { from_m: 0.0, to_m: s.to_m - length, ..s }));
+            all.extend((s.to_m > length).then_some(Structure { from_m: 0.0, to_m: s.to_m - length, ..s }));
         }
     }
     all
