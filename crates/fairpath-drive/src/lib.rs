@@ -25,6 +25,7 @@
 //! # Ok::<(), fairpath_drive::TerrainError>(())
 //! ```
 
+mod course;
 mod document;
 mod engineered;
 mod furniture;

@@ -45,9 +45,14 @@ pub enum ProfileError {
         /// How many weights.
         weights: usize,
     },
-    /// The stiffness is negative or not finite.
-    #[error("the stiffness is {0} m³; it must be 0 or more, and finite")]
-    Stiffness(f64),
+    /// A stiffness is not positive and finite, or there are more or fewer of them than intervals between heights.
+    #[error("{intervals} intervals come with {given} stiffnesses; each needs one that is positive and finite")]
+    Stiffness {
+        /// How many intervals there are.
+        intervals: usize,
+        /// How many stiffnesses.
+        given: usize,
+    },
 }
 
 /// The elevation of a path over its arc length in plan.

@@ -12,8 +12,8 @@ fn road(seed: u64, bends: [f64; 3], soil: Soil) -> Document {
     let mut document = Document::new();
     let terrain = TerrainSource {
         synthetic: Some(Landscape::Hills),
-        size: Some(301),
-        cell_m: Some(2.0),
+        size: Some(801),
+        cell_m: Some(0.75),
         seed: Some(seed),
         ..TerrainSource::default()
     };
@@ -53,7 +53,8 @@ proptest! {
         let by_areas = volumes_m3(&results.paths[0].sections);
         let by_grid = results.ground.volumes_m3();
         let all = by_areas[0] + by_areas[1];
-        prop_assume!(all > 2000.0);
+        // A slope that a wall cuts off ends at once: between a section with one and the next without, the mean of both areas tells little.
+        prop_assume!(all > 2000.0 && results.paths[0].sections.iter().all(|s| !s.sides.iter().any(|side| side.wall)));
         for i in 0..2 {
             // Of what is nearly nothing, a hundredth is less than a sample of the grid.
             prop_assert!((by_areas[i] - by_grid[i]).abs() <= 0.01 * by_areas[i].max(0.2 * all), "{:?} {:?}", by_areas, by_grid);

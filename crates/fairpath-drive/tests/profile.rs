@@ -45,12 +45,16 @@ fn profiles_that_lie_apart_have_no_sum() {
 fn what_cannot_be_smoothed_is_refused() {
     let points = [[0.0, 1.0], [10.0, 2.0], [20.0, 0.0]];
     for weights in [&[1.0, 1.0][..], &[1.0, 0.0, 1.0], &[1.0, -1.0, 1.0], &[1.0, f64::NAN, 1.0], &[1.0; 4]] {
-        assert!(matches!(smoothed(&points, weights, 1.0), Err(ProfileError::Weights { points: 3, .. })), "{weights:?}");
+        assert!(
+            matches!(smoothed(&points, weights, &[1.0; 2]), Err(ProfileError::Weights { points: 3, .. })),
+            "{weights:?}"
+        );
     }
-    for stiffness in [-1.0, f64::NAN, f64::INFINITY] {
-        assert!(matches!(smoothed(&points, &[1.0; 3], stiffness), Err(ProfileError::Stiffness(_))));
+    for stiffness in [&[1.0, 0.0][..], &[-1.0, 1.0], &[1.0, f64::NAN], &[f64::INFINITY, 1.0], &[1.0], &[1.0; 3]] {
+        let made = smoothed(&points, &[1.0; 3], stiffness);
+        assert!(matches!(made, Err(ProfileError::Stiffness { intervals: 2, .. })), "{stiffness:?}");
     }
-    assert!(matches!(smoothed(&points[..1], &[1.0], 1.0), Err(ProfileError::TooFew(1))));
+    assert!(matches!(smoothed(&points[..1], &[1.0], &[]), Err(ProfileError::TooFew(1))));
 }
 
 #[test]
@@ -60,7 +64,7 @@ fn a_wave_of_the_length_that_is_told_is_halved() {
     let points: Vec<[f64; 2]> = (0..2000)
         .map(|i| [spacing * f64::from(i), libm::cos(std::f64::consts::TAU * spacing * f64::from(i) / length)])
         .collect();
-    let smooth = smoothed(&points, &vec![1.0; 2000], stiffness).unwrap();
+    let smooth = smoothed(&points, &vec![1.0; 2000], &vec![stiffness; 1999]).unwrap();
     // A crest far from both ends.
     let crest = length * (5000.0 / length).round();
     assert!((smooth.at(crest).height_m - 0.5).abs() < 0.01, "{}", smooth.at(crest).height_m);
@@ -71,11 +75,11 @@ fn stiffness_leads_from_the_points_to_the_straight_line() {
     let points: Vec<[f64; 2]> =
         (0..60).map(|i| [f64::from(i) * 5.0, 0.05 * f64::from(i) + f64::from((i * 7) % 5 - 2)]).collect();
     let weights = vec![1.0; 60];
-    let exact = smoothed(&points, &weights, 0.0).unwrap();
+    let exact = smoothed(&points, &weights, &[1e-9; 59]).unwrap();
     for p in &points {
         assert!((exact.at(p[0]).height_m - p[1]).abs() < 1e-9);
     }
-    let line = smoothed(&points, &weights, 1e15).unwrap();
+    let line = smoothed(&points, &weights, &[1e15; 59]).unwrap();
     let (grade, middle) = (line.at(0.0).grade, line.at(147.5).height_m);
     for i in 0..60 {
         let at = line.at(5.0 * f64::from(i));
@@ -87,6 +91,37 @@ fn stiffness_leads_from_the_points_to_the_straight_line() {
     assert!(mean.abs() < 1e-6, "{mean}");
 }
 
+/// Where the stiffness changes, no height can be moved so that the sum of distances and bending becomes less.
+#[test]
+fn a_beam_of_changing_stiffness_is_at_its_least_energy() {
+    let points: Vec<[f64; 2]> =
+        (0..40).map(|i| [f64::from(i) * 5.0, 0.1 * f64::from(i) + f64::from((i * 7) % 5 - 2)]).collect();
+    let weights: Vec<f64> = (0..40).map(|i| 0.5 + f64::from(i % 3)).collect();
+    let stiffness: Vec<f64> = (0..39).map(|i| if i < 20 { 50.0 } else { 4000.0 }).collect();
+    let energy = |profile: &Profile| {
+        let misses: f64 =
+            points.iter().zip(&weights).map(|(p, w)| w * (profile.at(p[0]).height_m - p[1]).powi(2)).sum();
+        let bending = |piece: usize| {
+            let [_, _, c, d] = profile.cubic(piece);
+            let h = profile.knots()[piece + 1].station_m - profile.knots()[piece].station_m;
+            // The integral of (2c + 6dt)².
+            stiffness[piece] * h * (4.0 * c * c + 12.0 * c * d * h + 12.0 * d * d * h * h)
+        };
+        misses + (0..39).map(bending).sum::<f64>()
+    };
+    let best = smoothed(&points, &weights, &stiffness).unwrap();
+    let least = energy(&best);
+    for i in 0..40 {
+        for (rise, turn) in [(1e-3, 0.0), (-1e-3, 0.0), (0.0, 1e-3), (0.0, -1e-3)] {
+            let mut knots = best.knots().to_vec();
+            knots[i].height_m += rise;
+            knots[i].grade += turn;
+            let other = energy(&Profile::new(knots).unwrap());
+            assert!(other > least, "knot {i} by {rise} and {turn}: {other} and {least}");
+        }
+    }
+}
+
 proptest! {
     #[test]
     fn heights_and_grades_go_on_where_pieces_meet(points in points()) {
@@ -94,7 +129,7 @@ proptest! {
             Profile::new(knots(&points)).unwrap(),
             Profile::catmull_rom(&points).unwrap(),
             Profile::monotone(&points).unwrap(),
-            smoothed(&points, &vec![1.0; points.len()], 1e4).unwrap(),
+            smoothed(&points, &vec![1.0; points.len()], &vec![1e4; points.len() - 1]).unwrap(),
         ] {
             for piece in 0..profile.knots().len() - 1 {
                 let (a, b) = (profile.knots()[piece], profile.knots()[piece + 1]);

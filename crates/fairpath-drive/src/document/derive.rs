@@ -3,7 +3,7 @@
 
 use super::state::{FoliageRegion, LaidTerrain, State};
 use crate::furniture::{Sign, Tree, signs, stopping_arms, tiles_of, trees_on};
-use crate::ground::{CrossSection, Ground, Hits, TileIndex, cross_sections, hits};
+use crate::ground::{CorridorSite, CrossSection, Ground, Hits, TileIndex, cross_sections, hits};
 use crate::network::{
     Arm, Crossing, HeightMode, Junction, Path, PathId, PathPlace, Site, Structure, Unordered, alone, crossings_between,
     crossings_within, decide, engineered, junctions, profile_with, structures, wanted_heights,
@@ -164,13 +164,21 @@ pub(super) fn derive(before: Option<(&State, &Results)>, state: &State, terrain:
                 ..old.as_ref().clone()
             },
             _ => {
-                let earthwork = &state.settings.earthwork;
-                let sections = cross_sections(path, &profile, &structures, &terrain.field, &state.soils, earthwork);
-                let sections = Arc::new(sections);
-                let hits = Arc::new(hits(&sections, path.section.bed_m, earthwork, old_ground.grid()));
+                let options = &state.settings.earthwork;
+                let site = CorridorSite { natural: &terrain.field, soils: &state.soils, options };
+                // Where the path runs as it did, so does its corridor.
+                let kept = old.filter(|old| same_ground && Arc::ptr_eq(&old.path.section, &path.section));
+                let kept = kept.map(|old| (old.sections.as_slice(), old.hits.as_ref()));
+                let before = kept.map_or(&[][..], |(sections, _)| sections);
+                let sections = cross_sections(path, &profile, &structures, &site, before);
+                let hits = hits(&sections, kept, path.section.bed_m, options, old_ground.grid());
+                let (sections, hits) = (Arc::new(sections.all), Arc::new(hits));
                 // Where it asks what it asked before, the ground stays.
                 let before = old.map(|old| old.hits.as_ref());
-                let differs = |tile: &&TileIndex| before.and_then(|b| b.get(*tile)) != hits.get(*tile);
+                let differs = |tile: &&TileIndex| match (before.and_then(|b| b.get(*tile)), hits.get(*tile)) {
+                    (Some(a), Some(b)) => !(Arc::ptr_eq(a, b) || a == b),
+                    (a, b) => a.is_some() || b.is_some(),
+                };
                 let tiles = before.into_iter().flat_map(|b| b.keys()).chain(hits.keys());
                 dirty.extend(tiles.filter(differs).copied());
                 PathResult {

@@ -67,13 +67,12 @@ pub(crate) fn trees_on(
                 if !here || !ground.natural().contains(own.place) {
                     continue;
                 }
-                let around = (row - 1..=row + 1).flat_map(|r| (column - 1..=column + 1).map(move |c| (c, r)));
-                let beats_own =
-                    |other: &Lot| other.rank > own.rank && (other.place - own.place).hypot2() < APART_M * APART_M;
-                if around.into_iter().any(|(c, r)| of_cell(c, r).iter().any(beats_own)) {
+                if !(own.wish < density_at(regions, own.place)) {
                     continue;
                 }
-                if !(own.wish < density_at(regions, own.place)) {
+                let beats_own =
+                    |other: &Lot| other.rank > own.rank && (other.place - own.place).hypot2() < APART_M * APART_M;
+                if (row - 1..=row + 1).any(|r| (column - 1..=column + 1).any(|c| of_cell(c, r).iter().any(beats_own))) {
                     continue;
                 }
                 let foot_m = ground.height(own.place);
@@ -100,15 +99,7 @@ pub(crate) fn tiles_of(grid: &FineGrid, region: &FoliageRegion) -> Vec<TileIndex
     let step = grid.spacing_m();
     let around: Vec<Point> = region.outline.iter().flat_map(|p| [*p - step, *p + step]).collect();
     let Some([columns, rows]) = grid.samples_around(&around) else { return Vec::new() };
-    let (first, _) = grid.tile_of([columns[0], rows[0]]);
-    let (last, _) = grid.tile_of([columns[1], rows[1]]);
-    let mut tiles = Vec::new();
-    for row in first[1]..=last[1] {
-        for column in first[0]..=last[0] {
-            tiles.push([column, row]);
-        }
-    }
-    tiles
+    grid.tiles(columns, rows).collect()
 }
 
 fn tile_box(grid: &FineGrid, tile: TileIndex) -> [Point; 2] {

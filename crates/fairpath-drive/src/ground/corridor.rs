@@ -1,12 +1,14 @@
 //! Cross-sections of a path on the ground, as far as its slopes reach: a path with its profile and the natural ground come in, cross-sections go out.
 
 use super::soil::Soils;
+use crate::course::Course;
 use crate::network::{Carrier, Path, Structure};
 use crate::profile::Profile;
 use crate::terrain::Heightfield;
-use fairpath_curve::{Point, Vec2};
+use fairpath_curve::{Point, Pose, Vec2};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use std::ops::Range;
 
 /// How the ground beside a path is shaped.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -83,7 +85,7 @@ pub struct CrossSection {
 const CHORD_M: f64 = 0.05;
 
 /// Cross-sections are no further apart, m.
-const FURTHEST_M: f64 = 8.0;
+const FURTHEST_M: f64 = 5.0;
 
 /// Slopes are followed and areas summed in steps of this length, m.
 const ACROSS_M: f64 = 0.5;
@@ -111,64 +113,102 @@ impl Design {
 }
 
 /// The cross-sections of a path, ascending; a bridge or a tunnel has them too, without earthwork.
+pub(crate) struct Sections {
+    pub(crate) all: Vec<CrossSection>,
+    /// Those of them that were made anew.
+    pub(crate) new: Range<usize>,
+    /// Those of before in the place of which they are.
+    pub(crate) old: Range<usize>,
+}
+
+/// What cross-sections are made from beside the path.
+pub(crate) struct Site<'a> {
+    pub(crate) natural: &'a Heightfield,
+    pub(crate) soils: &'a Soils,
+    pub(crate) options: &'a EarthworkOptions,
+}
+
+/// The cross-sections of a path. Those of `before`, which have the same site and the same section of the path, stay as far as from both ends the path runs as it did.
 pub(crate) fn cross_sections(
     path: &Path,
     profile: &Profile,
     structures: &[Structure],
-    natural: &Heightfield,
-    soils: &Soils,
-    options: &EarthworkOptions,
-) -> Vec<CrossSection> {
+    site: &Site,
+    before: &[CrossSection],
+) -> Sections {
+    let bare = bare_sections(path, profile, structures);
+    let is_same = |old: &CrossSection, new: &CrossSection| {
+        // The station tells only where it is counted from.
+        old.point == new.point
+            && old.left == new.left
+            && old.curvature == new.curvature
+            && old.height_m == new.height_m
+            && old.on_ground == new.on_ground
+            && old.covered == new.covered
+    };
+    let front = before.iter().zip(&bare).take_while(|(old, new)| is_same(old, new)).count();
+    let rest = (before.len() - front).min(bare.len() - front);
+    let pairs = before.iter().rev().zip(bare.iter().rev()).take(rest);
+    let back = pairs.take_while(|(old, new)| is_same(old, new)).count();
+    let (old, new) = (front..before.len() - back, front..bare.len() - back);
+    let one = |(i, bare): (usize, CrossSection)| {
+        if new.contains(&i) {
+            return shaped(bare, path, site);
+        }
+        let kept = if i < front { before[i] } else { before[i - new.end + old.end] };
+        CrossSection { station_m: bare.station_m, ..kept }
+    };
+    let all = bare.into_iter().enumerate().map(one).collect();
+    Sections { all, new, old }
+}
+
+/// Cross-sections that know nothing of the ground.
+fn bare_sections(path: &Path, profile: &Profile, structures: &[Structure]) -> Vec<CrossSection> {
     let half = path.section.half_widths_m();
-    let design = |surface_m: f64| Design {
-        surface_m,
+    let bare = |Place { station_m, pose }: Place, carrier: Option<Carrier>| {
+        let tangent = fairpath_curve::trig::unit(pose.heading);
+        let side =
+            |i: usize| Side { half_width_m: half[i], daylight_m: half[i], cut_run: 1.0, fill_run: 1.0, wall: false };
+        CrossSection {
+            station_m,
+            point: pose.point,
+            left: Vec2::new(-tangent.y, tangent.x),
+            curvature: pose.curvature,
+            height_m: (profile.at(station_m).height_m / HEIGHT_STEP_M).round() * HEIGHT_STEP_M,
+            natural_m: 0.0,
+            on_ground: carrier.is_none() && path.section.shapes_ground,
+            covered: carrier == Some(Carrier::Tunnel),
+            sides: [side(0), side(1)],
+            areas_m2: [0.0; 2],
+        }
+    };
+    places(path, structures).into_iter().map(|(place, carrier)| bare(place, carrier)).collect()
+}
+
+/// A cross-section on the ground.
+fn shaped(bare: CrossSection, path: &Path, site: &Site) -> CrossSection {
+    let Site { natural, soils, options } = site;
+    let design = Design {
+        surface_m: bare.height_m,
         bed_m: path.section.bed_m,
         verge_m: options.verge_m,
         drop_m: options.verge_drop_m,
     };
-    let one = |station_m: f64, carrier: Option<Carrier>| {
-        let pose = path.plan.pose_at(station_m);
-        let tangent = fairpath_curve::trig::unit(pose.heading);
-        let left = Vec2::new(-tangent.y, tangent.x);
-        let height_m = profile.at(station_m).height_m;
-        let natural_m = natural.height(pose.point);
-        let on_ground = carrier.is_none() && path.section.shapes_ground;
-        let design = design(height_m);
-        let mut areas_m2 = [0.0; 2];
-        let sides = [0, 1].map(|i| {
-            let out = if i == 0 { left } else { -left };
-            let soil = soils.at(pose.point + out * (half[i] + options.verge_m));
-            let mut side = Side {
-                half_width_m: half[i],
-                daylight_m: half[i],
-                cut_run: soil.cut_run(),
-                fill_run: soil.fill_run(),
-                wall: false,
-            };
-            if on_ground {
-                // Towards the centre of a bend, strips to the inside become shorter (Pappus).
-                let turn = if i == 0 { pose.curvature } else { -pose.curvature };
-                slope(&mut side, &design, options, turn, &mut areas_m2, |across| {
-                    natural.height(pose.point + out * across)
-                });
-            }
-            side
-        });
-        CrossSection {
-            station_m,
-            point: pose.point,
-            left,
-            curvature: pose.curvature,
-            height_m,
-            natural_m,
-            on_ground,
-            covered: carrier == Some(Carrier::Tunnel),
-            sides,
-            areas_m2,
+    let mut section = CrossSection { natural_m: natural.height(bare.point), ..bare };
+    for i in 0..2 {
+        let out = if i == 0 { bare.left } else { -bare.left };
+        let side = &mut section.sides[i];
+        let soil = soils.at(bare.point + out * (side.half_width_m + options.verge_m));
+        (side.cut_run, side.fill_run) = (soil.cut_run(), soil.fill_run());
+        if bare.on_ground {
+            // Towards the centre of a bend, strips to the inside become shorter (Pappus).
+            let turn = if i == 0 { bare.curvature } else { -bare.curvature };
+            slope(side, &design, options, turn, &mut section.areas_m2, |across| {
+                natural.height(bare.point + out * across)
+            });
         }
-    };
-    let stations = stations(path, structures);
-    stations.into_iter().map(|(station, carrier)| one(station, carrier)).collect()
+    }
+    section
 }
 
 /// Follows one side from the middle until the slope meets the natural ground, adding up areas of cut and fill.
@@ -197,56 +237,71 @@ fn slope(
             add(across, width, z.min(high).max(low) - z);
         }
     }
+    // Beyond the verge the ground is too high for the slope, or too low, until it meets it.
+    let misses = |across: f64| {
+        let z = natural(across);
+        let [low, high] = design.bounds(side, across);
+        [high - z, low - z]
+    };
+    let [high, low] = misses(verge);
+    let which = if high < 0.0 { 0 } else { 1 };
+    let mut raised = [high.min(0.0), low.max(0.0)][which];
     let mut across = verge;
-    side.daylight_m = verge;
-    while across < furthest {
-        let middle = across + 0.5 * ACROSS_M;
-        let z = natural(middle);
-        let [low, high] = design.bounds(side, middle);
-        let raised = z.min(high).max(low) - z;
-        if raised == 0.0 {
-            return;
-        }
-        add(middle, ACROSS_M, raised);
-        across += ACROSS_M;
-        side.daylight_m = across;
+    let mut ends = raised == 0.0;
+    while !ends && across < furthest {
+        let width = ACROSS_M.min(furthest - across);
+        let next = misses(across + width)[which];
+        ends = next * raised <= 0.0;
+        let width = if ends { width * raised / (raised - next) } else { width };
+        let mean = if ends { 0.5 * raised } else { 0.5 * (raised + next) };
+        add(across + 0.5 * width, width, mean);
+        across += width;
+        raised = next;
     }
-    side.wall = true;
+    side.daylight_m = across;
+    side.wall = !ends;
 }
 
-/// Where cross-sections are taken, and what carries the path there, if not the ground. The ends of bridges and tunnels have two, on either side of a hair.
-fn stations(path: &Path, structures: &[Structure]) -> Vec<(f64, Option<Carrier>)> {
-    let length = path.length_m();
-    let mut cuts = vec![0.0, length];
-    let mut before = 0.0;
-    for segment in path.plan.segments() {
-        for s in segment.flatten_at(CHORD_M) {
-            cuts.push((before + s).min(length));
+/// Where a cross-section is taken.
+#[derive(Clone, Copy)]
+struct Place {
+    station_m: f64,
+    pose: Pose,
+}
+
+/// Where cross-sections are taken, and what carries the path there, if not the ground. Where that changes there are two at one place. Places are told from the start of each
+/// segment of the plan, so that where the plan is as it was, they are.
+fn places(path: &Path, structures: &[Structure]) -> Vec<(Place, Option<Carrier>)> {
+    let course = Course::new(&path.plan);
+    let segments = path.plan.segments();
+    let mut cuts_of: Vec<Vec<f64>> = segments.iter().map(|segment| segment.flatten_at(CHORD_M)).collect();
+    for station in structures.iter().flat_map(|s| [s.from_m, s.to_m]) {
+        let (segment, s) = course.locate(station);
+        cuts_of[segment].push(s);
+    }
+    let mut out: Vec<(Place, Option<Carrier>)> = Vec::new();
+    let mut carrier = None;
+    for (i, (segment, mut cuts)) in segments.iter().zip(cuts_of).enumerate() {
+        let place = |s: f64| Place { station_m: course.station(i, s), pose: segment.pose_at(s) };
+        let is_last = i + 1 == segments.len();
+        cuts.push(0.0);
+        cuts.sort_by(f64::total_cmp);
+        // The end is the start of the next one.
+        cuts.retain(|s| *s < segment.length - LEAST_M);
+        cuts.dedup_by(|a, b| *a - *b < LEAST_M);
+        for (k, &from) in cuts.iter().enumerate() {
+            let to = cuts.get(k + 1).copied().unwrap_or(segment.length);
+            let middle = course.station(i, 0.5 * (from + to));
+            let own = structures.iter().find(|s| s.from_m <= middle && middle <= s.to_m).map(|s| s.carrier);
+            if own != carrier && !out.is_empty() {
+                out.push((place(from), carrier));
+            }
+            carrier = own;
+            let parts = ((to - from) / FURTHEST_M).ceil().max(1.0) as usize;
+            out.extend((0..parts).map(|p| (place(from + (to - from) * p as f64 / parts as f64), carrier)));
         }
-        before += segment.length;
-    }
-    for s in structures {
-        cuts.extend([s.from_m.max(0.0), s.to_m.min(length)]);
-    }
-    cuts.sort_by(f64::total_cmp);
-    cuts.dedup_by(|a, b| *a - *b < LEAST_M);
-    if let Some(last) = cuts.last_mut() {
-        *last = length;
-    }
-    let mut out: Vec<(f64, Option<Carrier>)> = Vec::new();
-    let carrier = |from: f64, to: f64| {
-        let middle = 0.5 * (from + to);
-        structures.iter().find(|s| s.from_m <= middle && middle <= s.to_m).map(|s| s.carrier)
-    };
-    for pair in cuts.windows(2) {
-        let carrier = carrier(pair[0], pair[1]);
-        let parts = ((pair[1] - pair[0]) / FURTHEST_M).ceil().max(1.0) as usize;
-        if out.last().is_none_or(|(s, c)| *s != pair[0] || *c != carrier) {
-            out.push((pair[0], carrier));
-        }
-        for i in 1..=parts {
-            let station = if i == parts { pair[1] } else { pair[0] + (pair[1] - pair[0]) * i as f64 / parts as f64 };
-            out.push((station, carrier));
+        if is_last {
+            out.push((place(segment.length), carrier));
         }
     }
     out
@@ -254,3 +309,7 @@ fn stations(path: &Path, structures: &[Structure]) -> Vec<(f64, Option<Carrier>)
 
 /// Cross-sections nearer to each other than this would be one, m.
 const LEAST_M: f64 = 1e-3;
+
+/// Heights of cross-sections are told in steps of this, m: as fine as the ground is kept at 1,000 m above its origin, and coarser than rounding, so that what did not change
+/// is the same.
+const HEIGHT_STEP_M: f64 = 1.0 / 16384.0;

@@ -12,7 +12,7 @@ pub use soil::{Soil, SoilRegion, Soils};
 pub use tiles::{FineGrid, Tile, TileIndex};
 pub use volumes::{MassHaul, mass_haul, volumes_m3};
 
-pub(crate) use corridor::cross_sections;
+pub(crate) use corridor::{Site as CorridorSite, cross_sections};
 pub(crate) use raster::{Hits, hits};
 
 use crate::terrain::Heightfield;
@@ -119,7 +119,7 @@ impl Ground {
         for &tile in which {
             let mut asked: Vec<(u16, f32, usize, [f32; 2])> = Vec::new();
             for (path, hits) in corridors.iter().enumerate() {
-                let hits = hits.get(&tile).map_or(&[][..], Vec::as_slice);
+                let hits = hits.get(&tile).map_or(&[][..], |hits| hits);
                 asked.extend(hits.iter().map(|h| (h.sample, h.beyond_m, path, [h.low_m, h.high_m])));
             }
             // The nearest path has the last word.

@@ -1,10 +1,12 @@
 //! A corridor on the fine grid of the ground: cross-sections come in, for each sample that they reach how low and how high the ground may be there goes out.
 
-use super::corridor::{CrossSection, Design, EarthworkOptions, Side};
+use super::corridor::{CrossSection, Design, EarthworkOptions, Sections, Side};
 use super::tiles::{FineGrid, TILE, TileIndex};
 use crate::furniture::CLEAR_M;
 use fairpath_curve::{Point, Vec2};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
+use std::ops::Range;
+use std::sync::Arc;
 
 /// What a path asks of one sample of the ground.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -20,49 +22,107 @@ pub(crate) struct Hit {
 }
 
 /// The samples that a path asks something of, by tile, each once and in order.
-pub(crate) type Hits = BTreeMap<TileIndex, Vec<Hit>>;
+pub(crate) type Hits = BTreeMap<TileIndex, Arc<Vec<Hit>>>;
 
-/// What the cross-sections of a path ask of the ground. Takes time in proportion to the corridor's area.
-pub(crate) fn hits(sections: &[CrossSection], bed_m: f64, options: &EarthworkOptions, grid: &FineGrid) -> Hits {
-    let mut found = Hits::new();
-    for pair in sections.windows(2) {
-        let (a, b) = (&pair[0], &pair[1]);
-        if !a.covered && !b.covered && b.station_m > a.station_m {
-            strip(a, b, bed_m, options, grid, &mut found);
-        }
-    }
-    for hits in found.values_mut() {
-        // Of what several stretches of the path ask of one sample, the nearest counts.
-        hits.sort_by(|p, q| p.sample.cmp(&q.sample).then(p.beyond_m.total_cmp(&q.beyond_m)));
-        hits.dedup_by_key(|hit| hit.sample);
-    }
-    found
-}
-
-/// The ground between two cross-sections.
-fn strip(
-    a: &CrossSection,
-    b: &CrossSection,
+/// What the cross-sections of a path ask of the ground. Takes time in proportion to the area of the corridor that is new: of `before`, the sections and what they asked of the same
+/// grid under the same options and with the same bed, tiles stay that neither the old nor the new ones reach.
+pub(crate) fn hits(
+    sections: &Sections,
+    before: Option<(&[CrossSection], &Hits)>,
     bed_m: f64,
     options: &EarthworkOptions,
     grid: &FineGrid,
-    found: &mut Hits,
-) {
-    let along = |left: Vec2| Vec2::new(left.y, -left.x);
-    let (ta, tb) = (along(a.left), along(b.left));
-    // A bridge or a pipe asks nothing of the ground, but no tree shall stand under it.
-    let shapes = a.on_ground && b.on_ground;
-    let furthest = |side: &Side| side.daylight_m.max(side.half_width_m + CLEAR_M);
+) -> Hits {
+    let strips = |all: &[CrossSection], changed: &Range<usize>| -> BTreeSet<TileIndex> {
+        // A section bounds the strips on both sides of it.
+        let pairs = changed.start.saturating_sub(1)..(changed.end + 1).min(all.len());
+        let boxes = all[pairs].windows(2).filter_map(|pair| reached([&pair[0], &pair[1]], grid));
+        boxes.flat_map(|[columns, rows]| grid.tiles(columns, rows)).collect()
+    };
+    let (mut kept, which) = match before {
+        Some((old, hits)) => {
+            let mut which = strips(old, &sections.old);
+            which.extend(strips(&sections.all, &sections.new));
+            (hits.clone(), Some(which))
+        }
+        None => (Hits::new(), None),
+    };
+    let mut found = BTreeMap::new();
+    for pair in sections.all.windows(2) {
+        strip([&pair[0], &pair[1]], bed_m, options, grid, which.as_ref(), &mut found);
+    }
+    for tile in which.iter().flatten() {
+        kept.remove(tile);
+    }
+    kept.extend(found.into_iter().map(|(tile, mut hits)| {
+        // Of what several stretches of the path ask of one sample, the nearest counts.
+        hits.sort_by(|p: &Hit, q| p.sample.cmp(&q.sample).then(p.beyond_m.total_cmp(&q.beyond_m)));
+        hits.dedup_by_key(|hit| hit.sample);
+        (tile, Arc::new(hits))
+    }));
+    kept
+}
+
+/// How far a side reaches: to daylight, or as far as no tree shall stand.
+fn furthest(side: &Side) -> f64 {
+    side.daylight_m.max(side.half_width_m + CLEAR_M)
+}
+
+/// The columns and rows of the grid between which all lies that two cross-sections ask something of, if they ask anything.
+fn reached([a, b]: [&CrossSection; 2], grid: &FineGrid) -> Option<[[usize; 2]; 2]> {
+    if a.covered || b.covered || !(b.station_m > a.station_m) {
+        return None;
+    }
     let reach = |i: usize| furthest(&a.sides[i]).max(furthest(&b.sides[i])) + grid.step_m();
-    let corners = [
+    grid.samples_around(&[
         a.point + a.left * reach(0),
         a.point - a.left * reach(1),
         b.point + b.left * reach(0),
         b.point - b.left * reach(1),
-    ];
-    let Some([columns, rows]) = grid.samples_around(&corners) else { return };
+    ])
+}
+
+/// The ground between two cross-sections, on `which` tiles, if not on all.
+fn strip(
+    [a, b]: [&CrossSection; 2],
+    bed_m: f64,
+    options: &EarthworkOptions,
+    grid: &FineGrid,
+    which: Option<&BTreeSet<TileIndex>>,
+    found: &mut BTreeMap<TileIndex, Vec<Hit>>,
+) {
+    let Some([columns, rows]) = reached([a, b], grid) else { return };
+    let is_wanted = |tile: TileIndex| which.is_none_or(|which| which.contains(&tile));
+    if !grid.tiles(columns, rows).any(is_wanted) {
+        return;
+    }
+    let along = |left: Vec2| Vec2::new(left.y, -left.x);
+    let (ta, tb) = (along(a.left), along(b.left));
+    // A bridge or a pipe asks nothing of the ground, but no tree shall stand under it.
+    let shapes = a.on_ground && b.on_ground;
+    let reaches = [0, 1].map(|i| [furthest(&a.sides[i]), furthest(&b.sides[i])]);
+    // A wall stands where it stands; elsewhere the natural ground itself ends the slope.
+    let spares = [0, 1].map(|i| if a.sides[i].wall || b.sides[i].wall { 0.0 } else { grid.step_m() });
     for row in rows[0]..=rows[1] {
-        for column in columns[0]..=columns[1] {
+        // Of a row only what lies beyond the one section and before the other, and a sample more on both sides for rounding.
+        let y = grid.place([columns[0], row]).y;
+        let mut within = [columns[0] as f64, columns[1] as f64];
+        for (section, t, beyond) in [(a, ta, true), (b, tb, false)] {
+            if t.x != 0.0 {
+                let x = section.point.x - (y - section.point.y) * t.y / t.x;
+                let column = grid.column_at(x);
+                if (t.x > 0.0) == beyond {
+                    within[0] = within[0].max(column.floor() - 1.0);
+                } else {
+                    within[1] = within[1].min(column.ceil() + 1.0);
+                }
+            }
+        }
+        if !(within[0] <= within[1]) {
+            continue;
+        }
+        let mut run: Option<(TileIndex, &mut Vec<Hit>)> = None;
+        for column in within[0] as usize..=within[1] as usize {
             let p = grid.place([column, row]);
             let (da, db) = ((p - a.point).dot(ta), (p - b.point).dot(tb));
             if da < 0.0 || db > 0.0 || da == db {
@@ -75,12 +135,17 @@ fn strip(
             let left = a.left.lerp(b.left, u);
             let i = usize::from(off.dot(left) < 0.0);
             let across = off.hypot2().sqrt();
-            let (sa, sb) = (&a.sides[i], &b.sides[i]);
-            // A wall stands where it stands; elsewhere the natural ground itself ends the slope.
-            let spare = if sa.wall || sb.wall { 0.0 } else { grid.step_m() };
-            if across > lerp(furthest(sa), furthest(sb)) + spare {
+            if across > lerp(reaches[i][0], reaches[i][1]) + spares[i] {
                 continue;
             }
+            let (tile, sample) = grid.tile_of([column, row]);
+            if run.as_ref().is_none_or(|(t, _)| *t != tile) {
+                if !is_wanted(tile) {
+                    continue;
+                }
+                run = Some((tile, found.entry(tile).or_insert_with(|| Vec::with_capacity(TILE))));
+            }
+            let (sa, sb) = (&a.sides[i], &b.sides[i]);
             let design = Design {
                 surface_m: lerp(a.height_m, b.height_m),
                 bed_m,
@@ -91,13 +156,14 @@ fn strip(
             side.half_width_m = lerp(sa.half_width_m, sb.half_width_m);
             (side.cut_run, side.fill_run) = (lerp(sa.cut_run, sb.cut_run), lerp(sa.fill_run, sb.fill_run));
             let [low, high] = if shapes { design.bounds(&side, across) } else { [f64::NEG_INFINITY, f64::INFINITY] };
-            let (tile, sample) = grid.tile_of([column, row]);
-            found.entry(tile).or_insert_with(|| Vec::with_capacity(TILE)).push(Hit {
-                sample,
-                beyond_m: (across - side.half_width_m) as f32,
-                low_m: low as f32,
-                high_m: high as f32,
-            });
+            if let Some((_, hits)) = &mut run {
+                hits.push(Hit {
+                    sample,
+                    beyond_m: (across - side.half_width_m) as f32,
+                    low_m: low as f32,
+                    high_m: high as f32,
+                });
+            }
         }
     }
 }

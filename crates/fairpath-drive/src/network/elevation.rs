@@ -6,6 +6,7 @@ use crate::heights::{CrossingHeights, HeightError, HeightPoint, Over, PathPoints
 use crate::profile::{Knot, Profile, ProfileError};
 use crate::smoothing::smoothed;
 use crate::terrain::{Heightfield, Waters};
+use fairpath_curve::Point;
 use std::f64::consts::TAU;
 
 /// The ground is looked at in steps of this length along a path, m.
@@ -15,7 +16,7 @@ const STEP_M: f64 = 5.0;
 const WAVE_M_PER_KMH: f64 = 2.5;
 
 /// No longer waves are halved to make a path less steep, m: rather it stays steep, and the check of the design says so.
-const LONGEST_WAVE_M: f64 = 1000.0;
+const LONGEST_WAVE_M: f64 = 2000.0;
 
 /// Weight of the ground at a path's ends, beside 1 everywhere else.
 const END_WEIGHT: f64 = 1000.0;
@@ -39,40 +40,12 @@ const TRANSITION_M_PER_KMH: f64 = 1.0;
 pub(crate) fn alone(path: &Path, ground: &Heightfield, waters: &Waters) -> Profile {
     let length = path.length_m();
     let closed = path.plan.is_closed();
-    let count = (length / STEP_M).ceil().max(2.0) as usize;
-    let step = length / count as f64;
-    let height = |station: f64| {
-        let place = path.plan.point_at(if closed { station.rem_euclid(length) } else { station });
-        let z = ground.smooth_height(place);
-        waters.level_at(place).map_or(z, |level| z.max(level + FREEBOARD_M))
-    };
-    // A closed path is gone round a little further at both ends, so that it is as fair there as elsewhere.
-    let wave = WAVE_M_PER_KMH * path.section.speed_kmh;
-    let around = if closed { ((2.0 * wave / step).ceil() as usize).min(count) } else { 0 };
-    let points: Vec<[f64; 2]> = (0..=count + 2 * around)
-        .map(|i| (i as f64 - around as f64) * step)
-        .map(|station| [station, height(station)])
-        .collect();
+    let Looks { points, spacings_m } = looks(path, ground, waters);
     let whole = |profile: &Profile| if closed { closed_up(profile, length) } else { ends_exactly(profile, length) };
-    let ascending = "stations ascend and heights are finite";
     let profile = if path.heights == HeightMode::Draped {
-        Profile::catmull_rom(&points).expect(ascending)
+        Profile::catmull_rom(&points).expect(ASCENDING)
     } else {
-        let mut weights = vec![1.0; points.len()];
-        if !closed {
-            // A path begins and ends on the ground.
-            (weights[0], weights[count]) = (END_WEIGHT, END_WEIGHT);
-        }
-        let fair = |wave: f64| smoothed(&points, &weights, libm::pow(wave / TAU, 4.0) / step).expect(ascending);
-        let too_steep = |profile: &Profile| profile.steepest([0.0, length]).1.abs() > path.section.max_grade;
-        // What is still too steep is made fairer, as long as that helps without leaving the ground altogether.
-        let mut wave = wave;
-        let mut profile = fair(wave);
-        while too_steep(&profile) && wave < LONGEST_WAVE_M.min(length) {
-            wave *= 1.5;
-            profile = fair(wave);
-        }
-        profile
+        fair(path, &points, &spacings_m)
     };
     let transition = TRANSITION_M_PER_KMH * path.section.speed_kmh;
     // Around a closed path what was drawn before its end leads over to its start.
@@ -91,6 +64,89 @@ pub(crate) fn alone(path: &Path, ground: &Heightfield, waters: &Waters) -> Profi
     whole(&profile)
 }
 
+const ASCENDING: &str = "stations ascend and heights are finite";
+
+/// Where the ground was looked at along a path.
+struct Looks {
+    /// Station and height, m, ascending; around a closed path a little further at both ends, so that it is as fair there as elsewhere.
+    points: Vec<[f64; 2]>,
+    /// Of what length of the path each is the middle, m; an end of the path stands for none.
+    spacings_m: Vec<f64>,
+}
+
+/// The heights of the ground along a path, in equal steps along each segment of its plan: where the plan is as it was, so are they, however long the path became elsewhere.
+fn looks(path: &Path, ground: &Heightfield, waters: &Waters) -> Looks {
+    let length = path.length_m();
+    let height = |place: Point| {
+        let z = ground.smooth_height(place);
+        waters.level_at(place).map_or(z, |level| z.max(level + FREEBOARD_M))
+    };
+    let mut own: Vec<([f64; 2], f64)> = Vec::new();
+    let mut before = 0.0;
+    for segment in path.plan.segments() {
+        let count = (segment.length / STEP_M).round();
+        for i in 0..count as usize {
+            let s = (i as f64 + 0.5) / count * segment.length;
+            own.push(([before + s, height(segment.point_at(s))], segment.length / count));
+        }
+        before += segment.length;
+    }
+    if path.plan.is_closed() {
+        // A closed path that is shorter than a step has one look, and needs two.
+        if own.len() < 2 {
+            own = [0.25, 0.75].map(|t| ([t * length, height(path.plan.point_at(t * length))], 0.5 * length)).to_vec();
+        }
+        let reach = (2.0 * LONGEST_WAVE_M.min(length)).min(length);
+        let shifted = |turn: f64| own.iter().map(move |&([s, z], spacing)| ([s + turn * length, z], spacing));
+        let is_near = |&([s, _], _): &([f64; 2], f64)| s > -reach && s < length + reach;
+        own = shifted(-1.0).chain(shifted(0.0)).chain(shifted(1.0)).filter(is_near).collect();
+    } else {
+        let end = |station: f64| ([station, height(path.plan.point_at(station))], 0.0);
+        own.insert(0, end(0.0));
+        own.push(end(length));
+    }
+    let (points, spacings_m) = own.into_iter().unzip();
+    Looks { points, spacings_m }
+}
+
+/// Heights made fair: waves are halved that the design speed does not like, and where that leaves the path too steep, longer ones, as long as that helps without leaving
+/// the ground altogether.
+fn fair(path: &Path, points: &[[f64; 2]], spacings_m: &[f64]) -> Profile {
+    // A path begins and ends on the ground.
+    let weights: Vec<f64> = spacings_m.iter().map(|s| if *s > 0.0 { s / STEP_M } else { END_WEIGHT }).collect();
+    let longest = LONGEST_WAVE_M.max(WAVE_M_PER_KMH * path.section.speed_kmh);
+    let mut waves = vec![WAVE_M_PER_KMH * path.section.speed_kmh; points.len() - 1];
+    loop {
+        let stiffness: Vec<f64> = waves.iter().map(|wave| libm::pow(wave / TAU, 4.0) / STEP_M).collect();
+        let profile = smoothed(points, &weights, &stiffness).expect(ASCENDING);
+        let mut is_longer = false;
+        for (piece, wave) in waves.iter_mut().enumerate() {
+            let range = [points[piece][0], points[piece + 1][0]];
+            if *wave < longest && profile.steepest(range).1.abs() > path.section.max_grade {
+                *wave = (*wave * LONGER).min(longest);
+                is_longer = true;
+            }
+        }
+        if !is_longer {
+            return profile;
+        }
+        // What is stiff on one side and soft on the other would bend at once: waves become shorter little by little.
+        let width = |piece: usize| points[piece + 1][0] - points[piece][0];
+        for piece in 1..waves.len() {
+            waves[piece] = waves[piece].max(waves[piece - 1] - TAPER * width(piece));
+        }
+        for piece in (0..waves.len() - 1).rev() {
+            waves[piece] = waves[piece].max(waves[piece + 1] - TAPER * width(piece));
+        }
+    }
+}
+
+/// By how much waves are longer that are tried next where a path is too steep.
+const LONGER: f64 = 1.5;
+
+/// By how much the waves that are halved become shorter with the distance from where they had to be longer, m for each m.
+const TAPER: f64 = 0.15;
+
 /// Drawn heights as a profile: evened out, since a hand trembles, but through the ends of what was drawn.
 fn drawn_profile(points: &[[f64; 2]]) -> Result<Profile, ProfileError> {
     let extent = points.last().map_or(0.0, |p| p[0]) - points.first().map_or(0.0, |p| p[0]);
@@ -98,7 +154,7 @@ fn drawn_profile(points: &[[f64; 2]]) -> Result<Profile, ProfileError> {
     (weights[0], weights[points.len() - 1]) = (100.0, 100.0);
     let wave = 0.25 * extent;
     let step = extent / points.len() as f64;
-    smoothed(points, &weights, libm::pow(wave / TAU, 4.0) / step.max(1e-6))
+    smoothed(points, &weights, &vec![libm::pow(wave / TAU, 4.0) / step.max(1e-6); points.len() - 1])
 }
 
 /// The part of a profile around a closed path that is gone through once, ending as it begins.

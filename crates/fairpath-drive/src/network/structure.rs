@@ -2,6 +2,7 @@
 
 use super::contact::{Crossing, PathPlace};
 use super::path::Path;
+use crate::course::Course;
 use crate::profile::Profile;
 use crate::terrain::{Heightfield, Waters};
 use schemars::JsonSchema;
@@ -82,9 +83,10 @@ pub(crate) fn structures<'a>(
     let count = (length / STEP_M).ceil().max(1.0) as usize;
     let step = length / count as f64;
     let station = |i: usize| length * i as f64 / count as f64;
+    let course = Course::new(&path.plan);
     let at: Vec<(f64, bool)> = (0..=count)
         .map(|i| {
-            let place = path.plan.point_at(station(i));
+            let place = course.point_at(station(i));
             let z = ground.height(place);
             let wet = waters.covers(place, z);
             (profile.at(station(i)).height_m - z, wet)
