@@ -196,6 +196,19 @@ impl Profile {
         [p.height_m, p.grade, c, d]
     }
 
+    /// How steep a piece is where it is steepest, whichever way.
+    ///
+    /// # Panics
+    /// When there is no such piece.
+    #[must_use]
+    pub(crate) fn steepness(&self, piece: usize) -> f64 {
+        let [p, q] = [self.knots[piece], self.knots[piece + 1]];
+        let [_, _, c, d] = self.cubic(piece);
+        let turns = -c / (3.0 * d);
+        let inner = if turns > 0.0 && turns < q.station_m - p.station_m { p.grade + c * turns } else { p.grade };
+        p.grade.abs().max(q.grade.abs()).max(inner.abs())
+    }
+
     /// Where it is steepest within a range, and the grade there.
     #[must_use]
     pub fn steepest(&self, [from_m, to_m]: [f64; 2]) -> (f64, f64) {

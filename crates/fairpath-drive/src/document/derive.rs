@@ -2,8 +2,8 @@
 //! state before, so that the result is the same as if all were new.
 
 use super::state::{FoliageRegion, LaidTerrain, State};
-use crate::furniture::{Sign, Tree, signs, stopping_arms, tiles_of, trees_on};
-use crate::ground::{CorridorSite, CrossSection, Ground, Hits, TileIndex, cross_sections, hits};
+use crate::furniture::{DRY_M, Sign, Tree, signs, stopping_arms, tiles_of, trees_on};
+use crate::ground::{CorridorSite, CrossSection, Ground, Hit, Hits, TileIndex, cross_sections, hits};
 use crate::network::{
     Arm, Crossing, HeightMode, Junction, Path, PathId, PathPlace, Site, Structure, Unordered, alone, crossings_between,
     crossings_within, decide, engineered, junctions, profile_with, structures, wanted_heights,
@@ -111,7 +111,7 @@ pub(super) fn derive(before: Option<(&State, &Results)>, state: &State, terrain:
         is_old(path) && same_ground && same_rules
     });
     let mut paths = Vec::with_capacity(state.paths.len());
-    let mut dirty: BTreeSet<TileIndex> = BTreeSet::new();
+    let mut dirty = Dirty::default();
     let empty = Ground::new(terrain.field.clone());
     let old_ground = before.map_or(&empty, |(_, results)| &results.ground);
     for (i, path) in state.paths.iter().enumerate() {
@@ -175,12 +175,9 @@ pub(super) fn derive(before: Option<(&State, &Results)>, state: &State, terrain:
                 let (sections, hits) = (Arc::new(sections.all), Arc::new(hits));
                 // Where it asks what it asked before, the ground stays.
                 let before = old.map(|old| old.hits.as_ref());
-                let differs = |tile: &&TileIndex| match (before.and_then(|b| b.get(*tile)), hits.get(*tile)) {
-                    (Some(a), Some(b)) => !(Arc::ptr_eq(a, b) || a == b),
-                    (a, b) => a.is_some() || b.is_some(),
-                };
-                let tiles = before.into_iter().flat_map(|b| b.keys()).chain(hits.keys());
-                dirty.extend(tiles.filter(differs).copied());
+                for tile in before.into_iter().flat_map(|b| b.keys()).chain(hits.keys()) {
+                    dirty.compare(*tile, before.and_then(|b| b.get(tile)), hits.get(tile));
+                }
                 PathResult {
                     path: path.clone(),
                     profile,
@@ -197,12 +194,14 @@ pub(super) fn derive(before: Option<(&State, &Results)>, state: &State, terrain:
         paths.push(Arc::new(result));
     }
     let gone = before.into_iter().flat_map(|(_, r)| &r.paths).filter(|old| index(old.path.id).is_none());
-    dirty.extend(gone.flat_map(|old| old.hits.keys().copied()));
-    let ground = if dirty.is_empty() {
+    for (tile, hits) in gone.flat_map(|old| old.hits.iter()) {
+        dirty.compare(*tile, Some(hits), None);
+    }
+    let ground = if dirty.shaped.is_empty() {
         old_ground.clone()
     } else {
         let corridors: Vec<&Hits> = paths.iter().map(|p| p.hits.as_ref()).collect();
-        old_ground.reshaped(&dirty, &corridors)
+        old_ground.reshaped(&dirty.shaped, &corridors)
     };
     let junctions = intersections(before.map(|(_, r)| r), state, &paths, &crossings);
     let signs = posted(
@@ -213,6 +212,33 @@ pub(super) fn derive(before: Option<(&State, &Results)>, state: &State, terrain:
     );
     let trees = planted(before, state, terrain, &paths, &ground, &dirty);
     Results { paths, crossings, junctions, signs, trees, ground, unordered, pairs }
+}
+
+/// Tiles of which a path asks something else than before.
+#[derive(Default)]
+struct Dirty {
+    /// Where the ground is shaped anew.
+    shaped: BTreeSet<TileIndex>,
+    /// Those of them where trees have other places to stand.
+    cleared: BTreeSet<TileIndex>,
+}
+
+impl Dirty {
+    fn compare(&mut self, tile: TileIndex, old: Option<&Arc<Vec<Hit>>>, new: Option<&Arc<Vec<Hit>>>) {
+        let same = match (old, new) {
+            (Some(a), Some(b)) => Arc::ptr_eq(a, b) || a == b,
+            (a, b) => a.is_none() && b.is_none(),
+        };
+        if !same {
+            self.shaped.insert(tile);
+            let blocked = |hits: Option<&Arc<Vec<Hit>>>| -> Vec<u16> {
+                hits.into_iter().flat_map(|h| h.iter()).filter(|h| h.keeps_clear()).map(|h| h.sample).collect()
+            };
+            if blocked(old) != blocked(new) {
+                self.cleared.insert(tile);
+            }
+        }
+    }
 }
 
 /// The signs of all paths; those of a path that is as it was, with its intersections, are kept.
@@ -252,28 +278,31 @@ fn posted(
     paths.iter().map(one).collect()
 }
 
-/// The trees of all tiles; only those are planted anew in and beside which something changed.
+/// The trees of all tiles; only those are planted anew in and beside which something changed that trees depend on.
 fn planted(
     before: Option<(&State, &Results)>,
     state: &State,
     terrain: &LaidTerrain,
     paths: &[Arc<PathResult>],
     ground: &Ground,
-    dirty: &BTreeSet<TileIndex>,
+    dirty: &Dirty,
 ) -> BTreeMap<TileIndex, Arc<Vec<Tree>>> {
     let grid = ground.grid();
-    let same_seed = before.is_some_and(|(old, _)| old.settings.seed == state.settings.seed);
-    let mut trees = before.filter(|_| same_seed).map(|(_, r)| r.trees.clone()).unwrap_or_default();
-    let old_regions = before.filter(|_| same_seed).map_or(&[][..], |(old, _)| &old.foliage);
+    let before = before.filter(|(old, _)| old.settings.seed == state.settings.seed);
+    let mut trees = before.map(|(_, r)| r.trees.clone()).unwrap_or_default();
+    let old_regions = before.map_or(&[][..], |(old, _)| &old.foliage);
     let is_in = |regions: &[Arc<FoliageRegion>], r: &Arc<FoliageRegion>| regions.iter().any(|o| Arc::ptr_eq(o, r));
     let came = state.foliage.iter().filter(|r| !is_in(old_regions, r));
     let went = old_regions.iter().filter(|r| !is_in(&state.foliage, r));
     let mut which: BTreeSet<TileIndex> = came.chain(went).flat_map(|r| tiles_of(grid, r)).collect();
     if !state.foliage.is_empty() {
-        for &[column, row] in dirty {
-            for c in column.saturating_sub(1)..=column + 1 {
-                which.extend((row.saturating_sub(1)..=row + 1).map(|r| [c, r]));
-            }
+        which.extend(around(&dirty.cleared));
+        // Heights tell where there is water, and nothing else.
+        if let Some(level) = terrain.waters.highest_m() {
+            let is_dry = |ground: &Ground, tile| ground.lowest_m(tile) > level + DRY_M;
+            let old = before.map(|(_, r)| &r.ground);
+            let may_be_wet = |tile: &TileIndex| !(is_dry(ground, *tile) && old.is_some_and(|old| is_dry(old, *tile)));
+            which.extend(around(&dirty.shaped).into_iter().filter(may_be_wet));
         }
     }
     let corridors: Vec<&Hits> = paths.iter().map(|p| p.hits.as_ref()).collect();
@@ -288,6 +317,12 @@ fn planted(
         }
     }
     trees
+}
+
+/// Tiles and those beside them.
+fn around(tiles: &BTreeSet<TileIndex>) -> BTreeSet<TileIndex> {
+    let beside = |i: u32| i.saturating_sub(1)..=i + 1;
+    tiles.iter().flat_map(|&[column, row]| beside(column).flat_map(move |c| beside(row).map(move |r| [c, r]))).collect()
 }
 
 /// Whether a corridor lies on a tile or one beside it.

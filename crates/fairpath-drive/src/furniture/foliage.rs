@@ -15,16 +15,17 @@ pub(crate) const APART_M: f64 = 4.5;
 /// Nor to the edge of what is laid, m.
 pub(crate) const CLEAR_M: f64 = 3.0;
 
+/// Nor lower above water, m.
+pub(crate) const DRY_M: f64 = 0.3;
+
 /// Lots for each cell of the grid, whose side is [`APART_M`].
 const LOTS: u64 = 3;
 
 /// A tree.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tree {
-    /// Where its foot stands, m.
+    /// Where its foot stands, m, on the ground.
     pub place: Point,
-    /// Height of its foot, m.
-    pub foot_m: f64,
     /// Its height as a share of that of a full-grown one.
     pub size: f64,
     /// By how much it is turned, radians.
@@ -75,14 +76,13 @@ pub(crate) fn trees_on(
                 if (row - 1..=row + 1).any(|r| (column - 1..=column + 1).any(|c| of_cell(c, r).iter().any(beats_own))) {
                     continue;
                 }
-                let foot_m = ground.height(own.place);
-                if waters.covers(own.place, foot_m - 0.3) || is_blocked(grid, corridors, own.place) {
+                let is_wet = waters.level_at(own.place).is_some_and(|level| ground.height(own.place) < level + DRY_M);
+                if is_wet || is_blocked(grid, corridors, own.place) {
                     continue;
                 }
                 let [size, turn, kind] = own.looks();
                 found.push(Tree {
                     place: own.place,
-                    foot_m,
                     size: 0.7 + 0.6 * size,
                     turn_rad: std::f64::consts::TAU * turn,
                     kind: (kind * 3.0) as u8,
@@ -126,7 +126,7 @@ fn is_blocked(grid: &FineGrid, corridors: &[&Hits], place: Point) -> bool {
             let (tile, sample) = grid.tile_of([column, row]);
             for hits in corridors.iter().filter_map(|c| c.get(&tile)) {
                 if let Ok(i) = hits.binary_search_by_key(&sample, |h| h.sample)
-                    && hits[i].beyond_m < CLEAR_M as f32
+                    && hits[i].keeps_clear()
                 {
                     return true;
                 }

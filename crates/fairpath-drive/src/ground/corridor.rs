@@ -88,7 +88,7 @@ const CHORD_M: f64 = 0.05;
 const FURTHEST_M: f64 = 5.0;
 
 /// Slopes are followed and areas summed in steps of this length, m.
-const ACROSS_M: f64 = 0.5;
+const ACROSS_M: f64 = 1.0;
 
 /// The design of one side: how high the ground may stand and how low, at a distance from the middle; and whether that is still on the bed.
 pub(crate) struct Design {

@@ -13,7 +13,7 @@ pub use tiles::{FineGrid, Tile, TileIndex};
 pub use volumes::{MassHaul, mass_haul, volumes_m3};
 
 pub(crate) use corridor::{Site as CorridorSite, cross_sections};
-pub(crate) use raster::{Hits, hits};
+pub(crate) use raster::{Hit, Hits, hits};
 
 use crate::terrain::Heightfield;
 use fairpath_curve::Point;
@@ -117,20 +117,27 @@ impl Ground {
     pub(crate) fn reshaped(&self, which: &BTreeSet<TileIndex>, corridors: &[&Hits]) -> Self {
         let mut tiles = self.tiles.clone();
         for &tile in which {
-            let mut asked: Vec<(u16, f32, usize, [f32; 2])> = Vec::new();
-            for (path, hits) in corridors.iter().enumerate() {
-                let hits = hits.get(&tile).map_or(&[][..], |hits| hits);
-                asked.extend(hits.iter().map(|h| (h.sample, h.beyond_m, path, [h.low_m, h.high_m])));
-            }
-            // The nearest path has the last word.
-            asked.sort_by(|p, q| p.0.cmp(&q.0).then(q.1.total_cmp(&p.1)).then(p.2.cmp(&q.2)));
+            let asked: Vec<&[Hit]> = corridors.iter().filter_map(|hits| Some(hits.get(&tile)?.as_slice())).collect();
+            let natural = |sample: u16| self.natural.height(self.grid.place(self.grid.sample_of(tile, sample))) as f32;
+            let bounded = |z: f32, hit: &Hit| z.min(hit.high_m).max(hit.low_m);
             let mut samples = Vec::new();
-            for group in asked.chunk_by(|p, q| p.0 == q.0) {
-                let place = self.grid.place(self.grid.sample_of(tile, group[0].0));
-                let natural = self.natural.height(place) as f32;
-                let z = group.iter().fold(natural, |z, (_, _, _, [low, high])| z.min(*high).max(*low));
+            let mut add = |sample: u16, natural: f32, z: f32| {
                 if z != natural {
-                    samples.push((group[0].0, z));
+                    samples.push((sample, z));
+                }
+            };
+            if let [alone] = asked[..] {
+                for hit in alone {
+                    let natural = natural(hit.sample);
+                    add(hit.sample, natural, bounded(natural, hit));
+                }
+            } else {
+                let mut all: Vec<&Hit> = asked.into_iter().flatten().collect();
+                // The nearest path has the last word, and of two as near the one that was drawn later.
+                all.sort_by(|p, q| p.sample.cmp(&q.sample).then(q.beyond_m.total_cmp(&p.beyond_m)));
+                for group in all.chunk_by(|p, q| p.sample == q.sample) {
+                    let natural = natural(group[0].sample);
+                    add(group[0].sample, natural, group.iter().fold(natural, |z, hit| bounded(z, hit)));
                 }
             }
             if samples.is_empty() {
@@ -140,6 +147,16 @@ impl Ground {
             }
         }
         Self { natural: self.natural.clone(), grid: self.grid, tiles }
+    }
+
+    /// No height on a tile is lower, m.
+    pub(crate) fn lowest_m(&self, tile: TileIndex) -> f64 {
+        let [column, row] = tile;
+        // Between its last samples and the first of the next tiles it is as these are, too.
+        let [low, high] = [tile, [column + 1, row + 1]].map(|tile| self.grid.place(self.grid.sample_of(tile, 0)));
+        let next = [tile, [column + 1, row], [column, row + 1], [column + 1, row + 1]];
+        let shaped = next.iter().filter_map(|tile| self.tiles.get(tile)).flat_map(|tile| &tile.samples);
+        shaped.map(|(_, z)| f64::from(*z)).fold(self.natural.lowest_m([low, high]), f64::min)
     }
 
     /// Cut and fill by the difference of the grids before and after, m³.

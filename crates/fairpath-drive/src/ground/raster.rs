@@ -21,6 +21,13 @@ pub(crate) struct Hit {
     pub(crate) high_m: f32,
 }
 
+impl Hit {
+    /// Whether no tree may stand there.
+    pub(crate) fn keeps_clear(&self) -> bool {
+        self.beyond_m < CLEAR_M as f32
+    }
+}
+
 /// The samples that a path asks something of, by tile, each once and in order.
 pub(crate) type Hits = BTreeMap<TileIndex, Arc<Vec<Hit>>>;
 
@@ -47,21 +54,19 @@ pub(crate) fn hits(
         }
         None => (Hits::new(), None),
     };
-    let mut found = BTreeMap::new();
+    let mut found: BTreeMap<TileIndex, Asked> = BTreeMap::new();
     for pair in sections.all.windows(2) {
         strip([&pair[0], &pair[1]], bed_m, options, grid, which.as_ref(), &mut found);
     }
     for tile in which.iter().flatten() {
         kept.remove(tile);
     }
-    kept.extend(found.into_iter().map(|(tile, mut hits)| {
-        // Of what several stretches of the path ask of one sample, the nearest counts.
-        hits.sort_by(|p: &Hit, q| p.sample.cmp(&q.sample).then(p.beyond_m.total_cmp(&q.beyond_m)));
-        hits.dedup_by_key(|hit| hit.sample);
-        (tile, Arc::new(hits))
-    }));
+    kept.extend(found.into_iter().map(|(tile, asked)| (tile, Arc::new(asked.iter().flatten().copied().collect()))));
     kept
 }
+
+/// What is asked of each sample of a tile.
+type Asked = Box<[Option<Hit>; TILE * TILE]>;
 
 /// How far a side reaches: to daylight, or as far as no tree shall stand.
 fn furthest(side: &Side) -> f64 {
@@ -89,7 +94,7 @@ fn strip(
     options: &EarthworkOptions,
     grid: &FineGrid,
     which: Option<&BTreeSet<TileIndex>>,
-    found: &mut BTreeMap<TileIndex, Vec<Hit>>,
+    found: &mut BTreeMap<TileIndex, Asked>,
 ) {
     let Some([columns, rows]) = reached([a, b], grid) else { return };
     let is_wanted = |tile: TileIndex| which.is_none_or(|which| which.contains(&tile));
@@ -121,7 +126,7 @@ fn strip(
         if !(within[0] <= within[1]) {
             continue;
         }
-        let mut run: Option<(TileIndex, &mut Vec<Hit>)> = None;
+        let mut run: Option<(TileIndex, &mut Asked)> = None;
         for column in within[0] as usize..=within[1] as usize {
             let p = grid.place([column, row]);
             let (da, db) = ((p - a.point).dot(ta), (p - b.point).dot(tb));
@@ -143,7 +148,7 @@ fn strip(
                 if !is_wanted(tile) {
                     continue;
                 }
-                run = Some((tile, found.entry(tile).or_insert_with(|| Vec::with_capacity(TILE))));
+                run = Some((tile, found.entry(tile).or_insert_with(|| Box::new([None; TILE * TILE]))));
             }
             let (sa, sb) = (&a.sides[i], &b.sides[i]);
             let design = Design {
@@ -156,13 +161,13 @@ fn strip(
             side.half_width_m = lerp(sa.half_width_m, sb.half_width_m);
             (side.cut_run, side.fill_run) = (lerp(sa.cut_run, sb.cut_run), lerp(sa.fill_run, sb.fill_run));
             let [low, high] = if shapes { design.bounds(&side, across) } else { [f64::NEG_INFINITY, f64::INFINITY] };
-            if let Some((_, hits)) = &mut run {
-                hits.push(Hit {
-                    sample,
-                    beyond_m: (across - side.half_width_m) as f32,
-                    low_m: low as f32,
-                    high_m: high as f32,
-                });
+            let beyond_m = (across - side.half_width_m) as f32;
+            if let Some((_, asked)) = &mut run {
+                let here = &mut asked[usize::from(sample)];
+                // Of what several stretches of the path ask of one sample, the nearest counts.
+                if here.is_none_or(|other| beyond_m < other.beyond_m) {
+                    *here = Some(Hit { sample, beyond_m, low_m: low as f32, high_m: high as f32 });
+                }
             }
         }
     }

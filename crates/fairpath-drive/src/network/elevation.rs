@@ -117,12 +117,11 @@ fn fair(path: &Path, points: &[[f64; 2]], spacings_m: &[f64]) -> Profile {
     let longest = LONGEST_WAVE_M.max(WAVE_M_PER_KMH * path.section.speed_kmh);
     let mut waves = vec![WAVE_M_PER_KMH * path.section.speed_kmh; points.len() - 1];
     loop {
-        let stiffness: Vec<f64> = waves.iter().map(|wave| libm::pow(wave / TAU, 4.0) / STEP_M).collect();
+        let stiffness: Vec<f64> = waves.iter().map(|wave| fourth_power(wave / TAU) / STEP_M).collect();
         let profile = smoothed(points, &weights, &stiffness).expect(ASCENDING);
         let mut is_longer = false;
         for (piece, wave) in waves.iter_mut().enumerate() {
-            let range = [points[piece][0], points[piece + 1][0]];
-            if *wave < longest && profile.steepest(range).1.abs() > path.section.max_grade {
+            if *wave < longest && profile.steepness(piece) > path.section.max_grade {
                 *wave = (*wave * LONGER).min(longest);
                 is_longer = true;
             }
@@ -141,6 +140,10 @@ fn fair(path: &Path, points: &[[f64; 2]], spacings_m: &[f64]) -> Profile {
     }
 }
 
+fn fourth_power(x: f64) -> f64 {
+    (x * x) * (x * x)
+}
+
 /// By how much waves are longer that are tried next where a path is too steep.
 const LONGER: f64 = 1.5;
 
@@ -154,7 +157,7 @@ fn drawn_profile(points: &[[f64; 2]]) -> Result<Profile, ProfileError> {
     (weights[0], weights[points.len() - 1]) = (100.0, 100.0);
     let wave = 0.25 * extent;
     let step = extent / points.len() as f64;
-    smoothed(points, &weights, &vec![libm::pow(wave / TAU, 4.0) / step.max(1e-6); points.len() - 1])
+    smoothed(points, &weights, &vec![fourth_power(wave / TAU) / step.max(1e-6); points.len() - 1])
 }
 
 /// The part of a profile around a closed path that is gone through once, ending as it begins.

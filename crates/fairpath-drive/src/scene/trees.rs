@@ -11,7 +11,7 @@ pub(super) fn add(scene: &mut Scene, results: &Results) {
     let mut at: [Vec<Placement>; 3] = Default::default();
     for tree in results.trees.values().flat_map(|trees| trees.iter()) {
         at[usize::from(tree.kind).min(2)].push(Placement {
-            position: [tree.place.x, tree.place.y, tree.foot_m],
+            position: [tree.place.x, tree.place.y, results.ground.height(tree.place)],
             heading_rad: tree.turn_rad,
             pitch_rad: 0.0,
             scale: tree.size,

@@ -225,6 +225,19 @@ impl Heightfield {
         Point::new(place.x.min(high.x).max(low.x), place.y.min(high.y).max(low.y))
     }
 
+    /// No height between two corners of an upright rectangle, the south-western first, is lower, m: what lies beside the terrain is as high as its rim.
+    pub(crate) fn lowest_m(&self, corners: [Point; 2]) -> f64 {
+        let [low, high] = corners.map(|place| self.clamped(place) - self.corner);
+        let [columns, rows] = [
+            [low.x / self.spacing_m.x, high.x / self.spacing_m.x],
+            [low.y / self.spacing_m.y, high.y / self.spacing_m.y],
+        ];
+        let range = |[from, to]: [f64; 2], count: usize| from.floor() as usize..=(to.ceil() as usize).min(count - 1);
+        let [columns, rows] = [range(columns, self.columns), range(rows, self.rows)];
+        let samples = rows.flat_map(|row| columns.clone().map(move |column| self.sample([column, row])));
+        samples.fold(f64::INFINITY, f64::min)
+    }
+
     /// The height at a place, m, from the four samples around it by bilinear interpolation: continuous, and what a ray meets. Beyond the edge it is that of
     /// the nearest place on it.
     #[must_use]

@@ -28,6 +28,12 @@ impl Waters {
         body.map(|b| b.level_m).or(self.level_m)
     }
 
+    /// No water stands higher, m; nothing if there is none.
+    pub(crate) fn highest_m(&self) -> Option<f64> {
+        let levels = self.bodies.iter().map(|body| body.level_m).chain(self.level_m);
+        levels.reduce(f64::max)
+    }
+
     /// Whether ground of this height is under water at a place.
     #[must_use]
     pub fn covers(&self, place: Point, ground_m: f64) -> bool {

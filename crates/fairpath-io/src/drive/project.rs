@@ -99,7 +99,6 @@ fn results(results: &Results) -> Value {
     for tree in results.trees.values().flat_map(|t| t.iter()) {
         trees.add(tree.place.x.to_bits());
         trees.add(tree.place.y.to_bits());
-        trees.add(tree.foot_m.to_bits());
     }
     json!({
         "paths": results.paths.iter().map(|p| path(p)).collect::<Vec<_>>(),
