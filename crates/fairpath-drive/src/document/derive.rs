@@ -3,7 +3,7 @@
 
 use super::state::{FoliageRegion, LaidTerrain, State};
 use crate::furniture::{DRY_M, Sign, Tree, signs, stopping_arms, tiles_of, trees_on};
-use crate::ground::{CorridorSite, CrossSection, Ground, Hit, Hits, TileIndex, cross_sections, hits};
+use crate::ground::{CorridorSite, CrossSection, Ground, Hit, Hits, TILE, TileIndex, cross_sections, hits};
 use crate::network::{
     Arm, Crossing, HeightMode, Junction, Path, PathId, PathPlace, Site, Structure, Unordered, alone, crossings_between,
     crossings_within, decide, engineered, junctions, profile_with, structures, wanted_heights,
@@ -175,8 +175,11 @@ pub(super) fn derive(before: Option<(&State, &Results)>, state: &State, terrain:
                 let (sections, hits) = (Arc::new(sections.all), Arc::new(hits));
                 // Where it asks what it asked before, the ground stays.
                 let before = old.map(|old| old.hits.as_ref());
-                for tile in before.into_iter().flat_map(|b| b.keys()).chain(hits.keys()) {
-                    dirty.compare(*tile, before.and_then(|b| b.get(tile)), hits.get(tile));
+                for (tile, new) in hits.iter() {
+                    dirty.compare(*tile, before.and_then(|b| b.get(tile)), Some(new));
+                }
+                for (tile, old) in before.into_iter().flatten().filter(|(tile, _)| !hits.contains_key(*tile)) {
+                    dirty.compare(*tile, Some(old), None);
                 }
                 PathResult {
                     path: path.clone(),
@@ -219,7 +222,7 @@ pub(super) fn derive(before: Option<(&State, &Results)>, state: &State, terrain:
 struct Dirty {
     /// Where the ground is shaped anew.
     shaped: BTreeSet<TileIndex>,
-    /// Those of them where trees have other places to stand.
+    /// Where trees have other places to stand.
     cleared: BTreeSet<TileIndex>,
 }
 
@@ -231,11 +234,24 @@ impl Dirty {
         };
         if !same {
             self.shaped.insert(tile);
-            let blocked = |hits: Option<&Arc<Vec<Hit>>>| -> Vec<u16> {
-                hits.into_iter().flat_map(|h| h.iter()).filter(|h| h.keeps_clear()).map(|h| h.sample).collect()
+            let cleared = |hits: Option<&'_ Arc<Vec<Hit>>>| {
+                let hits = hits.map_or(&[][..], |hits| hits).iter();
+                hits.filter(|h| h.keeps_clear()).map(|h| h.sample).collect::<Vec<u16>>()
             };
-            if blocked(old) != blocked(new) {
-                self.cleared.insert(tile);
+            let (old, new) = (cleared(old), cleared(new));
+            if old != new {
+                // A tree beside a sample at the rim of a tile may stand on the next one.
+                let [mut columns, mut rows] = tile.map(|i| [i, i]);
+                for sample in old.into_iter().chain(new) {
+                    let at = [sample % TILE as u16, sample / TILE as u16];
+                    for (range, (at, i)) in [&mut columns, &mut rows].into_iter().zip(at.into_iter().zip(tile)) {
+                        let last = usize::from(at) == TILE - 1;
+                        *range =
+                            [if at == 0 { i.saturating_sub(1) } else { range[0] }, if last { i + 1 } else { range[1] }];
+                    }
+                }
+                let [columns, rows] = [columns, rows].map(|[from, to]| from..=to);
+                self.cleared.extend(rows.flat_map(|row| columns.clone().map(move |column| [column, row])));
             }
         }
     }
@@ -296,7 +312,7 @@ fn planted(
     let went = old_regions.iter().filter(|r| !is_in(&state.foliage, r));
     let mut which: BTreeSet<TileIndex> = came.chain(went).flat_map(|r| tiles_of(grid, r)).collect();
     if !state.foliage.is_empty() {
-        which.extend(around(&dirty.cleared));
+        which.extend(&dirty.cleared);
         // Heights tell where there is water, and nothing else.
         if let Some(level) = terrain.waters.highest_m() {
             let is_dry = |ground: &Ground, tile| ground.lowest_m(tile) > level + DRY_M;

@@ -310,6 +310,5 @@ fn places(path: &Path, structures: &[Structure]) -> Vec<(Place, Option<Carrier>)
 /// Cross-sections nearer to each other than this would be one, m.
 const LEAST_M: f64 = 1e-3;
 
-/// Heights of cross-sections are told in steps of this, m: as fine as the ground is kept at 1,000 m above its origin, and coarser than rounding, so that what did not change
-/// is the same.
-const HEIGHT_STEP_M: f64 = 1.0 / 16384.0;
+/// Heights of cross-sections are told in steps of this, m: no ground is shaped to a millimetre, and what hardly changed far from where a path was drawn over is then the same.
+const HEIGHT_STEP_M: f64 = 1.0 / 1024.0;

@@ -14,6 +14,7 @@ pub use volumes::{MassHaul, mass_haul, volumes_m3};
 
 pub(crate) use corridor::{Site as CorridorSite, cross_sections};
 pub(crate) use raster::{Hit, Hits, hits};
+pub(crate) use tiles::TILE;
 
 use crate::terrain::Heightfield;
 use fairpath_curve::Point;

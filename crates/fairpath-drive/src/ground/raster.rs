@@ -61,12 +61,37 @@ pub(crate) fn hits(
     for tile in which.iter().flatten() {
         kept.remove(tile);
     }
-    kept.extend(found.into_iter().map(|(tile, asked)| (tile, Arc::new(asked.iter().flatten().copied().collect()))));
+    kept.extend(found.into_iter().map(|(tile, asked)| (tile, Arc::new(asked.ordered()))));
     kept
 }
 
-/// What is asked of each sample of a tile.
-type Asked = Box<[Option<Hit>; TILE * TILE]>;
+/// What is asked of a tile while strips are added.
+struct Asked {
+    hits: Vec<Hit>,
+    /// Which of them is of each sample, counted from 1; 0 for none.
+    which: [u16; TILE * TILE],
+}
+
+impl Asked {
+    /// Of what several stretches of the path ask of one sample, the nearest counts.
+    fn add(&mut self, hit: Hit) {
+        let which = &mut self.which[usize::from(hit.sample)];
+        if *which == 0 {
+            self.hits.push(hit);
+            *which = self.hits.len() as u16;
+        } else {
+            let other = &mut self.hits[usize::from(*which) - 1];
+            if hit.beyond_m < other.beyond_m {
+                *other = hit;
+            }
+        }
+    }
+
+    /// All of it in the order of samples.
+    fn ordered(&self) -> Vec<Hit> {
+        self.which.iter().filter(|which| **which > 0).map(|which| self.hits[usize::from(*which) - 1]).collect()
+    }
+}
 
 /// How far a side reaches: to daylight, or as far as no tree shall stand.
 fn furthest(side: &Side) -> f64 {
@@ -86,6 +111,9 @@ fn reached([a, b]: [&CrossSection; 2], grid: &FineGrid) -> Option<[[usize; 2]; 2
         b.point - b.left * reach(1),
     ])
 }
+
+/// A share of the grid's step that is nothing.
+const HAIR: f64 = 1e-6;
 
 /// The ground between two cross-sections, on `which` tiles, if not on all.
 fn strip(
@@ -108,8 +136,10 @@ fn strip(
     let reaches = [0, 1].map(|i| [furthest(&a.sides[i]), furthest(&b.sides[i])]);
     // A wall stands where it stands; elsewhere the natural ground itself ends the slope.
     let spares = [0, 1].map(|i| if a.sides[i].wall || b.sides[i].wall { 0.0 } else { grid.step_m() });
+    // From one sample to the next the tile is nearly always the same.
+    let mut run: Option<(TileIndex, &mut Asked)> = None;
     for row in rows[0]..=rows[1] {
-        // Of a row only what lies beyond the one section and before the other, and a sample more on both sides for rounding.
+        // Of a row only what lies beyond the one section and before the other, and a hair on both sides for rounding.
         let y = grid.place([columns[0], row]).y;
         let mut within = [columns[0] as f64, columns[1] as f64];
         for (section, t, beyond) in [(a, ta, true), (b, tb, false)] {
@@ -117,16 +147,15 @@ fn strip(
                 let x = section.point.x - (y - section.point.y) * t.y / t.x;
                 let column = grid.column_at(x);
                 if (t.x > 0.0) == beyond {
-                    within[0] = within[0].max(column.floor() - 1.0);
+                    within[0] = within[0].max((column - HAIR).ceil());
                 } else {
-                    within[1] = within[1].min(column.ceil() + 1.0);
+                    within[1] = within[1].min((column + HAIR).floor());
                 }
             }
         }
         if !(within[0] <= within[1]) {
             continue;
         }
-        let mut run: Option<(TileIndex, &mut Asked)> = None;
         for column in within[0] as usize..=within[1] as usize {
             let p = grid.place([column, row]);
             let (da, db) = ((p - a.point).dot(ta), (p - b.point).dot(tb));
@@ -148,7 +177,13 @@ fn strip(
                 if !is_wanted(tile) {
                     continue;
                 }
-                run = Some((tile, found.entry(tile).or_insert_with(|| Box::new([None; TILE * TILE]))));
+                run = Some((
+                    tile,
+                    found.entry(tile).or_insert_with(|| Asked {
+                        hits: Vec::with_capacity(TILE * TILE / 2),
+                        which: [0; TILE * TILE],
+                    }),
+                ));
             }
             let (sa, sb) = (&a.sides[i], &b.sides[i]);
             let design = Design {
@@ -163,11 +198,7 @@ fn strip(
             let [low, high] = if shapes { design.bounds(&side, across) } else { [f64::NEG_INFINITY, f64::INFINITY] };
             let beyond_m = (across - side.half_width_m) as f32;
             if let Some((_, asked)) = &mut run {
-                let here = &mut asked[usize::from(sample)];
-                // Of what several stretches of the path ask of one sample, the nearest counts.
-                if here.is_none_or(|other| beyond_m < other.beyond_m) {
-                    *here = Some(Hit { sample, beyond_m, low_m: low as f32, high_m: high as f32 });
-                }
+                asked.add(Hit { sample, beyond_m, low_m: low as f32, high_m: high as f32 });
             }
         }
     }
