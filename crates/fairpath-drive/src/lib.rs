@@ -52,7 +52,7 @@ pub use engineered::{
 };
 pub use furniture::{Pillar, Sign, SignKind, Tree, pillars};
 pub use ground::{
-    CrossSection, EarthworkOptions, FineGrid, Ground, MassHaul, Side, Soil, SoilRegion, Soils, Tile, TileIndex,
+    CrossSection, EarthworkOptions, FineGrid, Ground, MassHaul, Side, Soil, SoilRegion, Soils, TileIndex, areas_m2_at,
     mass_haul, volumes_m3,
 };
 pub use heights::{CrossingHeights, HeightError, HeightPoint, Heights, Over, PathPoints};

@@ -2,8 +2,8 @@
 
 use fairpath_curve::Point;
 use fairpath_drive::{
-    Command, Document, EarthworkOptions, Landscape, NoFiles, SketchAs, Soil, StructureLimits, TerrainSource, mass_haul,
-    volumes_m3,
+    Command, Document, EarthworkOptions, Landscape, NoFiles, SketchAs, Soil, StructureLimits, TerrainSource,
+    areas_m2_at, mass_haul, volumes_m3,
 };
 use proptest::prelude::*;
 
@@ -63,7 +63,21 @@ proptest! {
         let sums = table.iter().fold([0.0; 2], |[c, f], row| [c + row.cut_m3, f + row.fill_m3]);
         prop_assert!((sums[0] - by_areas[0]).abs() < 1e-6 * all && (sums[1] - by_areas[1]).abs() < 1e-6 * all);
         prop_assert!((table[table.len() - 1].ordinate_m3 - (sums[0] - sums[1])).abs() < 1e-6 * all);
-        prop_assert!(table.windows(2).all(|rows| rows[0].to_m <= rows[1].from_m + 8.0 && rows[0].from_m < rows[1].from_m));
+        prop_assert!(table.windows(2).all(|rows| rows[0].to_m == rows[1].from_m && rows[0].to_m - rows[0].from_m == 20.0));
+        let last = table[table.len() - 1];
+        prop_assert!(last.to_m == results.paths[0].path.length_m() && last.to_m - last.from_m <= 20.0);
+        // Areas, added up in steps of 5 cm, give the volume of each stretch.
+        for row in &table {
+            let (step, mut sums) = (0.05, [0.0; 2]);
+            let count = ((row.to_m - row.from_m) / step).round();
+            for i in 0..count as usize {
+                let station = row.from_m + (i as f64 + 0.5) * (row.to_m - row.from_m) / count;
+                let areas = areas_m2_at(&results.paths[0].sections, station);
+                sums = [0, 1].map(|k| sums[k] + areas[k] * (row.to_m - row.from_m) / count);
+            }
+            prop_assert!((sums[0] - row.cut_m3).abs() < 0.02 + 1e-3 * row.cut_m3, "{:?} {:?}", sums, row);
+            prop_assert!((sums[1] - row.fill_m3).abs() < 0.02 + 1e-3 * row.fill_m3, "{:?} {:?}", sums, row);
+        }
     }
 
     #[test]

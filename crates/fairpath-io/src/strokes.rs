@@ -91,21 +91,26 @@ pub fn read_strokes_from(
     options: &ReadOptions,
 ) -> Result<StrokeFile, Error> {
     let (head, reader) = peek(reader).map_err(|source| Error::Read { file: name.into(), source })?;
-    // GeoJSON files are often called `.json`.
-    let given = format.filter(|&f| f != StrokeFormat::Json || !strokes_geojson::begins(&head));
-    let Some(format) = given.or_else(|| StrokeFormat::from_content(&head)) else {
-        let problem = match first_byte(&head) {
-            None => "the file is empty".into(),
-            Some(b) => format!("nothing known begins with {:?}", char::from(b)),
-        };
-        return Err(Error::UnknownFormat { file: name.into(), problem, expected: EXPECTED });
-    };
+    let format = format_of(&head, name, format)?;
     let result = if format == StrokeFormat::Text {
         strokes_text::read(reader, options)
     } else {
         read_all(reader, &options.limits).and_then(|bytes| parse(&bytes, format, options))
     };
     result.map_err(|fault| fault.in_file(name))
+}
+
+/// The format of a file that begins like this, where its name tells `given`.
+pub(crate) fn format_of(head: &[u8], name: &str, given: Option<StrokeFormat>) -> Result<StrokeFormat, Error> {
+    // GeoJSON files are often called `.json`.
+    let given = given.filter(|&f| f != StrokeFormat::Json || !strokes_geojson::begins(head));
+    given.or_else(|| StrokeFormat::from_content(head)).ok_or_else(|| {
+        let problem = match first_byte(head) {
+            None => "the file is empty".into(),
+            Some(b) => format!("nothing known begins with {:?}", char::from(b)),
+        };
+        Error::UnknownFormat { file: name.into(), problem, expected: EXPECTED }
+    })
 }
 
 fn parse(bytes: &[u8], format: StrokeFormat, options: &ReadOptions) -> Result<StrokeFile, Fault> {

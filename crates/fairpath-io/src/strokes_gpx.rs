@@ -13,6 +13,13 @@ use fairpath_fit::{Stroke, Warning};
 use roxmltree::Node;
 
 pub(crate) fn read(text: &str, options: &ReadOptions) -> Result<StrokeFile, Fault> {
+    let (mut file, places) = read_places(text, options)?;
+    project(&mut file, &places)?;
+    Ok(file)
+}
+
+/// The lines without points, and for each the places that would be.
+pub(crate) fn read_places(text: &str, options: &ReadOptions) -> Result<(StrokeFile, Vec<Vec<Place>>), Fault> {
     let document = xml::parse(text, &options.limits)?;
     let root = document.root_element();
     if root.tag_name().name() != "gpx" {
@@ -41,8 +48,7 @@ pub(crate) fn read(text: &str, options: &ReadOptions) -> Result<StrokeFile, Faul
     }
     let earliest = file.strokes.iter().flat_map(|s| &s.times_s).fold(f64::INFINITY, |a, b| a.min(*b));
     file.strokes.iter_mut().flat_map(|s| &mut s.times_s).for_each(|t| *t -= earliest);
-    project(&mut file, &places)?;
-    Ok(file)
+    Ok((file, places))
 }
 
 fn elements<'a, 'i>(node: Node<'a, 'i>) -> impl Iterator<Item = Node<'a, 'i>> {

@@ -64,6 +64,7 @@ pub(super) fn apply(
     match command {
         Command::Terrain(source) => next.terrain = Some(laid(state, source, files)?),
         Command::Sketch { points_m, layer, name, section, sketch_as, closed, pixel_m, min_radius_m } => {
+            named_layer(layer)?;
             let given = name.as_deref().map(|name| free_name(state, name)).transpose()?;
             let points = stroke(points_m)?;
             let section = section_named(state, section.as_deref().unwrap_or("two-lane"))?;
@@ -182,6 +183,7 @@ pub(super) fn apply(
             next.sections = Arc::new(sections);
         }
         Command::Layer { path, layer } => {
+            named_layer(layer)?;
             each(state, &mut next, Some(path), &mut outcome, |path| path.layer.clone_from(layer))?;
         }
         Command::Settings { structures, earthwork, rules, seed } => {
@@ -278,7 +280,14 @@ fn section_named(state: &State, name: &str) -> Result<Arc<Section>, CommandError
 }
 
 fn free_name(state: &State, name: &str) -> Result<String, CommandError> {
+    if name.trim().is_empty() {
+        return Err(CommandError::NoName);
+    }
     if state.path(name).is_some() { Err(CommandError::NameTaken(name.to_owned())) } else { Ok(name.to_owned()) }
+}
+
+fn named_layer(layer: &str) -> Result<(), CommandError> {
+    if layer.trim().is_empty() { Err(CommandError::NoName) } else { Ok(()) }
 }
 
 /// The layer's name with the next number that no path has.

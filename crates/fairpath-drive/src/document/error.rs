@@ -34,6 +34,9 @@ pub enum CommandError {
         /// The names of those that there are.
         known: String,
     },
+    /// A name or layer is empty.
+    #[error("names of paths and layers must not be empty; leave \"name\" out to have the path numbered")]
+    NoName,
     /// The name is another path's.
     #[error("there is a path {0:?} already; give this one another name")]
     NameTaken(String),

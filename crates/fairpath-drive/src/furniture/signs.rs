@@ -3,8 +3,8 @@
 use crate::network::{Arm, Junction, Path, PathId};
 use crate::profile::Profile;
 use crate::rules::DesignRules;
-use crate::section::{Lane, LaneKind};
-use fairpath_curve::Kind;
+use crate::section::{Lane, LaneKind, Section};
+use fairpath_curve::{Kind, Point, Vec2, trig};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -39,6 +39,27 @@ pub struct Sign {
     pub station_m: f64,
     /// Whether it is for those who drive towards the path's end.
     pub forward: bool,
+}
+
+/// From the edge of what is laid to a sign, m.
+const BESIDE_M: f64 = 0.7;
+
+impl Sign {
+    /// How far to the left of the path's middle it stands, m: on the right of those whom it is for.
+    #[must_use]
+    pub fn to_left_m(&self, section: &Section) -> f64 {
+        let [left, right] = section.half_widths_m();
+        if self.forward { -(right + BESIDE_M) } else { left + BESIDE_M }
+    }
+
+    /// Where it stands, m, and the heading of those whom it is for, radians; `path` is its path.
+    #[must_use]
+    pub fn stands(&self, path: &Path) -> (Point, f64) {
+        let pose = path.plan.pose_at(self.station_m);
+        let tangent = trig::unit(pose.heading);
+        let place = pose.point + Vec2::new(-tangent.y, tangent.x) * self.to_left_m(&path.section);
+        (place, if self.forward { pose.heading } else { trig::wrap_angle(pose.heading + std::f64::consts::PI) })
+    }
 }
 
 /// From a sign to what it warns of, m for each km/h: about what it takes to react and to brake gently.
@@ -107,12 +128,12 @@ pub(crate) fn signs(
         add(posted, *from_m, true);
         add(posted, until, false);
     }
-    // Nobody needs signs in the middle of an intersection.
+    // Nobody needs signs in the middle of an intersection, be it at the seam of a closed path.
+    let turns = if path.plan.is_closed() { &[-1.0, 0.0, 1.0][..] } else { &[0.0][..] };
     let within = |s: &Sign| {
-        junctions
-            .iter()
-            .flat_map(|j| &j.spans)
-            .any(|(id, [a, b])| *id == s.path && s.station_m > a + INSIDE_M && s.station_m < b - INSIDE_M)
+        let spans = junctions.iter().flat_map(|j| &j.spans).filter(|(id, _)| *id == s.path);
+        let is_in = |[a, b]: [f64; 2], station: f64| station > a + INSIDE_M && station < b - INSIDE_M;
+        spans.into_iter().any(|(_, span)| turns.iter().any(|turn| is_in(*span, s.station_m + turn * length)))
     };
     found.retain(|s| s.kind == SignKind::Stop || !within(s));
     let by_station = |a: &Sign, b: &Sign| a.station_m.total_cmp(&b.station_m);

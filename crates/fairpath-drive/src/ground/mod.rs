@@ -9,8 +9,8 @@ mod volumes;
 
 pub use corridor::{CrossSection, EarthworkOptions, Side};
 pub use soil::{Soil, SoilRegion, Soils};
-pub use tiles::{FineGrid, Tile, TileIndex};
-pub use volumes::{MassHaul, mass_haul, volumes_m3};
+pub use tiles::{FineGrid, TileIndex};
+pub use volumes::{MassHaul, areas_m2_at, mass_haul, volumes_m3};
 
 pub(crate) use corridor::{Site as CorridorSite, cross_sections};
 pub(crate) use raster::{Hit, Hits, hits};
@@ -20,7 +20,7 @@ use crate::terrain::Heightfield;
 use fairpath_curve::Point;
 use std::collections::BTreeSet;
 use std::sync::Arc;
-use tiles::Tiles;
+use tiles::{Tile, Tiles};
 
 /// The ground: heights of the terrain, but for what was shaped. Copies share what they have in common.
 #[derive(Clone, Debug)]

@@ -114,7 +114,7 @@ impl FineGrid {
 
 /// The shaped samples of one tile.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Tile {
+pub(crate) struct Tile {
     /// Which samples were shaped, in order, and their heights, m.
     pub(crate) samples: Vec<(u16, f32)>,
 }

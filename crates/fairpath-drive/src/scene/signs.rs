@@ -5,7 +5,7 @@ use super::{Finish, Instances, Part, Placement, Scene, part};
 use crate::document::Results;
 use crate::furniture::SignKind;
 use crate::section::Material;
-use fairpath_curve::{Vec2, trig};
+use fairpath_curve::trig;
 use std::collections::BTreeMap;
 
 /// Height of a plate's middle, m.
@@ -14,23 +14,12 @@ const MIDDLE_M: f64 = 2.2;
 /// Half a plate's height, m.
 const HALF_M: f64 = 0.38;
 
-/// From the edge of what is laid to the post, m.
-const BESIDE_M: f64 = 0.7;
-
 pub(super) fn add(scene: &mut Scene, results: &Results) {
     let mut at: BTreeMap<SignKind, Vec<Placement>> = BTreeMap::new();
     for (path, signs) in results.paths.iter().zip(&results.signs) {
         for sign in signs.iter() {
-            let pose = path.path.plan.pose_at(sign.station_m);
-            let tangent = trig::unit(pose.heading);
-            let left = Vec2::new(-tangent.y, tangent.x);
-            let [to_left, to_right] = path.path.section.half_widths_m();
-            // On the right of those whom it is for.
-            let off = if sign.forward { -(to_right + BESIDE_M) } else { to_left + BESIDE_M };
-            let p = pose.point + left * off;
+            let (p, heading_rad) = sign.stands(&path.path);
             let z = path.profile.at(sign.station_m).height_m - 0.1;
-            let heading_rad =
-                if sign.forward { pose.heading } else { trig::wrap_angle(pose.heading + std::f64::consts::PI) };
             let placement = Placement { position: [p.x, p.y, z], heading_rad, pitch_rad: 0.0, scale: 1.0 };
             at.entry(sign.kind).or_default().push(placement);
         }

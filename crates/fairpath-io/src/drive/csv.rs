@@ -2,7 +2,7 @@
 
 use super::export::DriveExport;
 use crate::error::Error;
-use fairpath_drive::{CameraTrack, Carrier, CrossSection, Drive, PathResult, Results, mass_haul};
+use fairpath_drive::{CameraTrack, Carrier, Drive, PathResult, Results, areas_m2_at, mass_haul};
 
 /// Rows are no further apart, m; at joins of the plan and at ends of bridges and tunnels there are rows besides.
 const EVERY_M: f64 = 10.0;
@@ -35,8 +35,7 @@ pub(super) fn write(export: &DriveExport<'_>) -> Result<Vec<u8>, Error> {
             let pose = path.path.plan.pose_at(station);
             let at = path.profile.at(station);
             let carrier = path.structures.iter().find(|s| s.from_m <= station && station <= s.to_m).map(|s| s.carrier);
-            let section = nearest(&path.sections, station);
-            let [cut, fill] = section.map_or([0.0; 2], |s| s.areas_m2);
+            let [cut, fill] = areas_m2_at(&path.sections, station);
             let numbers = [
                 station,
                 pose.point.x,
@@ -135,11 +134,4 @@ fn stations(path: &PathResult) -> Vec<f64> {
     all.sort_by(f64::total_cmp);
     all.dedup_by(|b, a| *b - *a < 1e-6);
     all
-}
-
-fn nearest(sections: &[CrossSection], station: f64) -> Option<&CrossSection> {
-    let i = sections.partition_point(|s| s.station_m < station);
-    let around = [i.checked_sub(1).and_then(|i| sections.get(i)), sections.get(i)];
-    let off = |s: &&CrossSection| (s.station_m - station).abs();
-    around.into_iter().flatten().min_by(|a, b| off(a).total_cmp(&off(b)))
 }

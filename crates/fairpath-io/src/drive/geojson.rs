@@ -3,7 +3,7 @@
 use super::export::DriveExport;
 use crate::error::Error;
 use crate::terrain::Projector;
-use fairpath_curve::{Point, Vec2, trig};
+use fairpath_curve::Point;
 use fairpath_drive::{Carrier, PathResult, Sign, SignKind};
 use serde_json::{Value, json};
 
@@ -36,7 +36,7 @@ pub(super) fn write(export: &DriveExport<'_>) -> Result<Vec<u8>, Error> {
             "layer": path.path.layer,
             "section": path.path.section.name,
             "length_m": path.path.length_m(),
-            "speed_kmh": path.path.section.speed_kmh,
+            "speed_limits": limits(path),
         });
         features.push(line(path, [0.0, path.path.length_m()], properties, &place)?);
         for s in &path.structures {
@@ -53,6 +53,11 @@ pub(super) fn write(export: &DriveExport<'_>) -> Result<Vec<u8>, Error> {
     }
     let text = serde_json::to_string(&json!({"type": "FeatureCollection", "name": export.name, "features": features}));
     text.map(String::into_bytes).map_err(|e| unwritable(e.to_string()))
+}
+
+/// Speeds that hold along a path.
+fn limits(path: &PathResult) -> Value {
+    path.path.speed_limits().iter().map(|(from_m, kmh)| json!({"from_m": from_m, "kmh": kmh})).collect()
 }
 
 type PlaceOf<'a> = dyn Fn(Point, f64) -> Result<Value, Error> + 'a;
@@ -75,11 +80,7 @@ fn line(path: &PathResult, [from, to]: [f64; 2], properties: Value, place: &Plac
 }
 
 fn sign_feature(path: &PathResult, sign: &Sign, place: &PlaceOf<'_>) -> Result<Value, Error> {
-    let pose = path.path.plan.pose_at(sign.station_m);
-    let tangent = trig::unit(pose.heading);
-    let left = Vec2::new(-tangent.y, tangent.x);
-    let [to_left, to_right] = path.path.section.half_widths_m();
-    let p = pose.point + left * if sign.forward { -to_right } else { to_left };
+    let (p, _) = sign.stands(&path.path);
     let (kind, value) = match sign.kind {
         SignKind::Stop => ("stop", Value::Null),
         SignKind::StopAhead => ("stop-ahead", Value::Null),

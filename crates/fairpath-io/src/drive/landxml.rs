@@ -50,7 +50,11 @@ pub(super) fn write(export: &DriveExport<'_>) -> Result<Vec<u8>, Error> {
     }
     xml.empty("Project", &[("name", export.name)]);
     xml.empty("Application", &[("name", "fairpath"), ("version", env!("CARGO_PKG_VERSION"))]);
-    xml.open("Alignments", &[("name", export.name)]);
+    // The format has no group of nothing.
+    let any = !export.results.paths.is_empty();
+    if any {
+        xml.open("Alignments", &[("name", export.name)]);
+    }
     for path in &export.results.paths {
         let length = number(path.path.length_m());
         xml.open("Alignment", &[("name", &path.path.name), ("length", &length), ("staStart", "0")]);
@@ -66,7 +70,9 @@ pub(super) fn write(export: &DriveExport<'_>) -> Result<Vec<u8>, Error> {
         xml.close("Profile");
         xml.close("Alignment");
     }
-    xml.close("Alignments");
+    if any {
+        xml.close("Alignments");
+    }
     surface(&mut xml, export, origin);
     xml.close("LandXML");
     xml.finish()

@@ -37,11 +37,18 @@ fn is_road(path: &PathResult) -> bool {
 
 pub(super) fn write(export: &DriveExport<'_>) -> Result<Vec<u8>, Error> {
     let network = Network::of(export.results);
+    if network.roads.is_empty() {
+        return Err(Error::Unwritable {
+            format: "OpenDRIVE",
+            place: "the network".to_owned(),
+            problem: "there is no road, railway or footpath in it, and OpenDRIVE has at least one".to_owned(),
+        });
+    }
     let mut xml = Xml::default();
     xml.open("OpenDRIVE", &[]);
     header(&mut xml, export);
     for road in &network.roads {
-        roads::write(&mut xml, road, &network, export);
+        roads::write(&mut xml, road, export);
     }
     let connecting = connecting_roads(&network, export.results);
     for road in &connecting {

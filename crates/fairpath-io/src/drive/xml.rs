@@ -1,6 +1,7 @@
 //! XML as it is written here: elements with attributes in order.
 
 use crate::error::Error;
+use crate::xml::legal;
 use quick_xml::Writer;
 use quick_xml::events::{BytesCData, BytesDecl, BytesEnd, BytesStart, BytesText, Event};
 use std::io;
@@ -28,7 +29,7 @@ impl Xml {
 
     /// Begins an element.
     pub(crate) fn open(&mut self, name: &str, attributes: &[(&str, &str)]) {
-        self.event(Event::Start(BytesStart::new(name).with_attributes(attributes.iter().copied())));
+        self.event(Event::Start(element(name, attributes)));
     }
 
     /// Ends an element.
@@ -38,12 +39,12 @@ impl Xml {
 
     /// An element without content.
     pub(crate) fn empty(&mut self, name: &str, attributes: &[(&str, &str)]) {
-        self.event(Event::Empty(BytesStart::new(name).with_attributes(attributes.iter().copied())));
+        self.event(Event::Empty(element(name, attributes)));
     }
 
     /// Text.
     pub(crate) fn text(&mut self, text: &str) {
-        self.event(Event::Text(BytesText::new(text)));
+        self.event(Event::Text(BytesText::new(&legal(text))));
     }
 
     /// An element with nothing but a text in it.
@@ -71,6 +72,15 @@ impl Xml {
             }
         }
     }
+}
+
+/// A tag; of its attributes, characters that XML has no way to write become the sign for what is unknown.
+fn element<'a>(name: &'a str, attributes: &[(&str, &str)]) -> BytesStart<'a> {
+    let mut element = BytesStart::new(name);
+    for (key, value) in attributes {
+        element.push_attribute((*key, legal(value).as_ref()));
+    }
+    element
 }
 
 /// A number so that it reads back to the same bits.

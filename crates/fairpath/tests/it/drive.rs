@@ -171,8 +171,22 @@ fn bad_scripts_are_refused_by_place_and_nothing_is_written() {
             format!("{head}{hills},{{\"do\":\"sketch\",\"section\":\"moat\",\"points_m\":[[9,9],[99,99]]}}]}}"),
             "two-lane, four-lane",
         ),
+        (
+            format!("{head}{hills},{{\"do\":\"sketch\",\"name\":\" \",\"points_m\":[[9,9],[99,99]]}}]}}"),
+            "must not be empty",
+        ),
+        (format!("{head}{hills},{{\"do\":\"import\",\"file\":\"l.csv\",\"only\":\"x\"}}]}}"), "is named \"x\""),
+        (
+            format!("{head}{hills},{{\"do\":\"import\",\"file\":\"l.csv\",\"offset_m\":[9000,0]}}]}}"),
+            "none of its 1 lines lies on the terrain",
+        ),
+        (format!("{head}{hills},{{\"do\":\"import\",\"file\":\"l.csv\",\"shortest_m\":900}}]}}"), "shortest_m"),
+        (format!("{head}{hills},{{\"do\":\"import\",\"file\":\"l.gpx\"}}]}}"), "lies nowhere on the globe"),
         (head.to_owned(), "cut off"),
     ];
+    fs::write(folder.path().join("l.csv"), "100 100\n200 110\n300 100\n").unwrap();
+    let gpx = r#"<gpx><trk><trkseg><trkpt lon="1" lat="42"/><trkpt lon="1.01" lat="42"/></trkseg></trk></gpx>"#;
+    fs::write(folder.path().join("l.gpx"), gpx).unwrap();
     for (text, said) in cases {
         fs::write(folder.path().join("s.json"), &text).unwrap();
         let refused = ran(folder.path(), &["drive", "run", "s.json", "--project", "p.fairpath"]).ended(2);
@@ -181,6 +195,55 @@ fn bad_scripts_are_refused_by_place_and_nothing_is_written() {
     }
     let refused = ran(folder.path(), &["drive", "run", "s.json", "--export", "a.doc"]).ended(2);
     assert!(refused.err.contains("xodr, xml, glb, geojson, csv"), "{}", refused.err);
+}
+
+/// Lines of every kind lie where they were drawn, in metres with y to the north.
+#[test]
+fn imports_come_in_metres_the_right_way_up() {
+    let folder = tempdir().unwrap();
+    let write = |name: &str, text: &str| fs::write(folder.path().join(name), text).unwrap();
+    write("plain.csv", "100 100\n200 100\n300 150\n");
+    write("feet.csv", "# unit: ft\n# y: up\n400 400\n700 400\n1000 500\n");
+    write(
+        "down.svg",
+        r#"<svg xmlns="http://www.w3.org/2000/svg"><polyline points="100 -300 200 -300 300 -350"/></svg>"#,
+    );
+    let import = |file: &str| format!("{{\"do\":\"import\",\"file\":\"{file}\",\"name\":\"{file}\"}}");
+    let script = format!(
+        "{{\"format\":\"fairpath-drive-script\",\"version\":1,\"commands\":[{{\"do\":\"terrain\",\"synthetic\":\"hills\",\"size\":129,\"cell_m\":4.0}},{},{},{}]}}",
+        import("plain.csv"),
+        import("feet.csv"),
+        import("down.svg"),
+    );
+    write("s.json", &script);
+    ran(folder.path(), &["drive", "run", "s.json", "--export", "o.csv"]).ended(0);
+    let table = fs::read_to_string(folder.path().join("o.csv")).unwrap();
+    for (name, begin, end) in [
+        ("plain.csv", [100.0, 100.0], [300.0, 150.0]),
+        ("feet.csv", [121.92, 121.92], [304.8, 152.4]),
+        ("down.svg", [100.0, 300.0], [300.0, 350.0]),
+    ] {
+        let rows: Vec<Vec<&str>> = table.lines().map(|line| line.split(',').collect()).collect();
+        let own: Vec<_> = rows.iter().filter(|row| row[0] == name).collect();
+        for (row, place) in [(own[0], begin), (own[own.len() - 1], end)] {
+            let at = [2, 3].map(|i| row[i].parse::<f64>().unwrap());
+            assert!((0..2).all(|i| (at[i] - place[i]).abs() < 3.0), "{name}: {at:?} for {place:?}");
+        }
+    }
+}
+
+#[test]
+fn where_there_is_no_path_formats_that_need_one_say_so() {
+    let folder = tempdir().unwrap();
+    let text = r#"{"format":"fairpath-drive-script","version":1,"commands":[
+        {"do":"terrain","synthetic":"hills","size":65,"cell_m":4.0}]}"#;
+    fs::write(folder.path().join("s.json"), text).unwrap();
+    let refused = ran(folder.path(), &["drive", "run", "s.json", "--export", "o.xodr"]).ended(2);
+    assert!(refused.err.contains("OpenDRIVE has at least one"), "{}", refused.err);
+    assert!(!folder.path().join("o.xodr").exists());
+    ran(folder.path(), &["drive", "run", "s.json", "--export", "o.xml", "--export", "o.glb"]).ended(0);
+    let landxml = fs::read_to_string(folder.path().join("o.xml")).unwrap();
+    assert!(!landxml.contains("<Alignments"));
 }
 
 #[test]

@@ -40,7 +40,7 @@ pub(super) fn connecting_roads<'a>(network: &Network<'_>, results: &'a Results) 
             found.push(Connecting {
                 id,
                 junction: j,
-                junction_id: junction_id(network, j),
+                junction_id: junction_id(j),
                 way,
                 geometries: plan::geometries(&way.plan),
                 from: (from, contact(a), lane(a, way.from_lane, true)),

@@ -5,9 +5,6 @@ use super::roads::Road;
 use crate::drive::xml::{Xml, number};
 use fairpath_drive::{Carrier, Sign, SignKind};
 
-/// From the edge of what is laid to a sign, m.
-const BESIDE_M: f64 = 0.7;
-
 /// Height of a sign's middle above the road, m.
 const MIDDLE_M: &str = "2.2";
 
@@ -66,7 +63,6 @@ pub(super) fn write_signals(xml: &mut Xml, road: &Road<'_>, signs: &[Sign]) {
         return;
     }
     xml.open("signals", &[]);
-    let [left, right] = road.path.path.section.half_widths_m();
     for (k, (s, sign)) in found.into_iter().enumerate() {
         let (name, code, value) = match sign.kind {
             SignKind::Stop => ("stop", "R1-1", None),
@@ -78,7 +74,7 @@ pub(super) fn write_signals(xml: &mut Xml, road: &Road<'_>, signs: &[Sign]) {
             SignKind::SpeedLimit(kmh) => ("speed limit", "R2-1", Some(kmh.to_string())),
         };
         let id = format!("{}{k:03}", road.id);
-        let (s, t) = (number(s), number(if sign.forward { -(right + BESIDE_M) } else { left + BESIDE_M }));
+        let (s, t) = (number(s), number(sign.to_left_m(&road.path.path.section)));
         let orientation = if sign.forward { "+" } else { "-" };
         let mut attributes = vec![
             ("s", s.as_str()),

@@ -4,7 +4,7 @@ use super::{is_road, lanes, objects, plan};
 use crate::drive::export::DriveExport;
 use crate::drive::xml::{Xml, number};
 use fairpath_curve::Segment;
-use fairpath_drive::{Arm, Knot, PathId, PathResult, Profile, Results};
+use fairpath_drive::{Arm, Knot, LaneKind, PathId, PathResult, Profile, Results};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -157,12 +157,12 @@ fn profile_of(path: &PathResult, [from, to]: [f64; 2]) -> Option<Profile> {
     Profile::new(first.knots().iter().copied().chain(moved).collect()).ok()
 }
 
-pub(super) fn write(xml: &mut Xml, road: &Road<'_>, network: &Network<'_>, export: &DriveExport<'_>) {
+pub(super) fn write(xml: &mut Xml, road: &Road<'_>, export: &DriveExport<'_>) {
     let id = road.id.to_string();
     let length = number(plan::length(&road.geometries));
     let name = &road.path.path.name;
     xml.open("road", &[("name", name), ("length", &length), ("id", &id), ("junction", "-1"), ("rule", "RHT")]);
-    links(xml, road, network);
+    links(xml, road);
     types(xml, road);
     plan::write_plan(xml, &road.geometries);
     plan::write_elevation(xml, &road.profile);
@@ -173,7 +173,7 @@ pub(super) fn write(xml: &mut Xml, road: &Road<'_>, network: &Network<'_>, expor
     xml.close("road");
 }
 
-fn links(xml: &mut Xml, road: &Road<'_>, network: &Network<'_>) {
+fn links(xml: &mut Xml, road: &Road<'_>) {
     if road.leads_to == [LeadsTo::Nothing; 2] {
         return;
     }
@@ -182,7 +182,7 @@ fn links(xml: &mut Xml, road: &Road<'_>, network: &Network<'_>) {
         match to {
             LeadsTo::Nothing => {}
             LeadsTo::Junction(j) => {
-                let id = junction_id(network, j).to_string();
+                let id = junction_id(j).to_string();
                 xml.empty(name, &[("elementType", "junction"), ("elementId", &id)]);
             }
             LeadsTo::Road(id) => {
@@ -195,14 +195,17 @@ fn links(xml: &mut Xml, road: &Road<'_>, network: &Network<'_>) {
 }
 
 /// Intersections are numbered after a million, so that their numbers are nobody else's.
-pub(super) fn junction_id(_network: &Network<'_>, junction: usize) -> u64 {
+pub(super) fn junction_id(junction: usize) -> u64 {
     1_000_000 + junction as u64
 }
 
 /// What kind of road it is, with the speed that holds.
 fn types(xml: &mut Xml, road: &Road<'_>) {
     let path = &road.path.path;
-    let kind = if path.section.is_road() { "rural" } else { "pedestrian" };
+    let has = |kind: LaneKind| path.section.left.iter().chain(&path.section.right).any(|lane| lane.kind == kind);
+    let kinds = [(LaneKind::Driving, "rural"), (LaneKind::Sidewalk, "pedestrian"), (LaneKind::Cycling, "bicycle")];
+    // There is no type for railways.
+    let kind = kinds.into_iter().find(|(kind, _)| has(*kind)).map_or("unknown", |(_, name)| name);
     let length = path.length_m();
     let mut written: Option<f64> = None;
     let all = path.speed_limits();
