@@ -42,8 +42,8 @@ mod smoothing;
 mod terrain;
 
 pub use document::{
-    Command, CommandError, CrossingSet, Document, FoliageRegion, LaidTerrain, NoFiles, Outcome, PathResult, Results,
-    Settings, SketchAs, State, TerrainSource, Terrains,
+    Command, CommandError, CrossingSet, Document, FoliageRegion, LaidTerrain, NoFiles, Outcome, PathResult, RawLayout,
+    RawSample, Results, Settings, SketchAs, State, TerrainSource, Terrains,
 };
 pub use engineered::{
     ClearanceAt, Demand, Earthwork, EarthworkSection, EngineeredError, EngineeredHeights, EngineeredNetwork,

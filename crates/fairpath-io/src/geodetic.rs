@@ -89,7 +89,7 @@ pub(crate) fn project(file: &mut StrokeFile, places: &[Vec<Place>]) -> Result<()
 }
 
 /// Degrees within -180 and 180.
-fn wrapped(degrees: f64) -> f64 {
+pub(crate) fn wrapped(degrees: f64) -> f64 {
     (degrees + 180.0).rem_euclid(360.0) - 180.0
 }
 

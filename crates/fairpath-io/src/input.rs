@@ -77,7 +77,7 @@ pub(crate) fn text(bytes: &[u8]) -> Result<&str, Fault> {
         Fault::new(format_args!("line {line}, byte {at}"), "the text is not UTF-8; save it as UTF-8")
     })?;
     if text.bytes().all(|b| b.is_ascii_whitespace()) {
-        return Err(Fault::new("line 1", "the file is empty; expected strokes or splines"));
+        return Err(Fault::new("line 1", "the file is empty"));
     }
     Ok(text)
 }

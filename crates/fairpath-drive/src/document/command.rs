@@ -241,9 +241,59 @@ pub struct TerrainSource {
     /// Heights of black and white of a picture, m.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub range_m: Option<[f64; 2]>,
+    /// The EPSG number of the coordinates of a file that does not tell it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub epsg: Option<u32>,
+    /// The number that stands for no height, as the file has it; beside the one that the file tells.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub void_value: Option<f64>,
+    /// Length of the unit of height, m, instead of the one that the file tells: 0.3048 for feet.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub height_unit_m: Option<f64>,
+    /// What the numbers of a raw file are.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub raw: Option<RawLayout>,
     /// What lies lower is under water, m; without it, there is no water.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub water_level_m: Option<f64>,
+}
+
+/// What bare numbers are: rows from the north, each from the west.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct RawLayout {
+    /// Samples from west to east.
+    pub columns: usize,
+    /// Samples from north to south.
+    pub rows: usize,
+    /// What each is.
+    pub sample: RawSample,
+    /// Whether the byte of highest value comes first.
+    #[serde(default)]
+    pub big_endian: bool,
+}
+
+/// A number in a file without a header.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum RawSample {
+    /// 0 to 65,535.
+    U16,
+    /// -32,768 to 32,767.
+    I16,
+    /// Single precision.
+    F32,
+}
+
+impl RawSample {
+    /// How many bytes it takes.
+    #[must_use]
+    pub fn bytes(self) -> usize {
+        match self {
+            Self::U16 | Self::I16 => 2,
+            Self::F32 => 4,
+        }
+    }
 }
 
 /// What a stroke is.

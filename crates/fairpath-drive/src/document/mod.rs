@@ -11,7 +11,7 @@ mod state;
 mod strokes;
 
 pub use apply::{NoFiles, Outcome, Terrains};
-pub use command::{Command, CrossingSet, SketchAs, TerrainSource};
+pub use command::{Command, CrossingSet, RawLayout, RawSample, SketchAs, TerrainSource};
 pub use derive::{PathResult, Results};
 pub use error::CommandError;
 pub use state::{FoliageRegion, LaidTerrain, Settings, State};

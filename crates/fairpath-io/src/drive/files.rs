@@ -34,8 +34,15 @@ impl TerrainFolder {
 impl Terrains for TerrainFolder {
     fn terrain(&self, source: &TerrainSource) -> Result<LaidTerrain, String> {
         let file = source.file.as_deref().unwrap_or_default();
-        let options =
-            TerrainOptions { height_range_m: source.range_m, spacing_m: source.cell_m, ..TerrainOptions::default() };
+        let options = TerrainOptions {
+            height_range_m: source.range_m,
+            spacing_m: source.cell_m,
+            epsg: source.epsg,
+            void_value: source.void_value,
+            height_unit_m: source.height_unit_m,
+            raw: source.raw,
+            ..TerrainOptions::default()
+        };
         let read = read_terrain(&self.folder.join(file), &options).map_err(|e| e.to_string())?;
         let told = |w: Warning| Warning { text: format!("{file}: {}", w.text), ..w };
         self.warnings.borrow_mut().extend(read.warnings.into_iter().map(told));

@@ -7,6 +7,7 @@ use super::raster::{Plane, Raster, Stored, check_count, check_size, excerpt};
 use crate::error::Fault;
 use crate::input::text;
 use fairpath_drive::Samples;
+use fairpath_fit::Warning;
 
 /// What stands for no height where the file does not say, after ESRI.
 const DEFAULT_VOID: f64 = -9999.0;
@@ -79,7 +80,7 @@ pub(super) fn read(bytes: &[u8], options: &TerrainOptions) -> Result<Raster, Fau
         lines.next();
     }
     let (stored, void) = grid(&header, options)?;
-    let plane = plane(&stored, options)?;
+    let (plane, warning) = plane(&stored, options)?;
     let mut samples = Vec::new();
     for (number, line) in lines {
         for word in line.split_ascii_whitespace() {
@@ -99,7 +100,7 @@ pub(super) fn read(bytes: &[u8], options: &TerrainOptions) -> Result<Raster, Fau
         }
     }
     check_count(stored.size, samples.len())?;
-    stored.raster(Samples::F32(samples), plane, Vec::new())
+    stored.raster(Samples::F32(samples), plane, warning.into_iter().collect())
 }
 
 /// Where the samples lie, and what stands for none.
@@ -125,15 +126,15 @@ fn grid(header: &Header, options: &TerrainOptions) -> Result<(Stored, f64), Faul
 }
 
 /// The file says nothing about it: metres, unless the caller knows better, and not where they look like degrees.
-fn plane(stored: &Stored, options: &TerrainOptions) -> Result<Plane, Fault> {
+fn plane(stored: &Stored, options: &TerrainOptions) -> Result<(Plane, Option<Warning>), Fault> {
     if let Some(code) = options.epsg {
         let found = epsg::plane(code).map_err(|problem| Fault::new("the header", problem))?;
         if found.unit_m != 1.0 {
             let problem = format!("EPSG:{code} is not in metres; convert the grid, or save it as a GeoTIFF");
             return Err(Fault::new("the header", problem));
         }
-        return Ok(found.plane);
+        return Ok((found.plane, found.warning));
     }
     stored.check_metres()?;
-    Ok(Plane::Local)
+    Ok((Plane::Local, Some(Stored::without_a_globe())))
 }

@@ -1,6 +1,7 @@
 //! Numbers of the EPSG's register as planes or globes, and units of length by their numbers in it.
 
 use super::raster::Plane;
+use fairpath_fit::Warning;
 use proj4rs::Proj;
 
 /// A foot as it was in surveys of the United States, m: 1200/3937.
@@ -14,6 +15,8 @@ pub(super) struct Found {
     pub(super) plane: Plane,
     /// Size of the unit in which the register has coordinates of that plane, m; 1 on the globe.
     pub(super) unit_m: f64,
+    /// What had to be assumed.
+    pub(super) warning: Option<Warning>,
 }
 
 /// The plane or globe of a number, or why it has none, in words.
@@ -27,7 +30,8 @@ pub(super) fn plane(code: u32) -> Result<Found, String> {
     let refused = |why: &str| format!("EPSG:{code} cannot be computed ({why}); reproject the file to UTM");
     let proj = Proj::from_proj_string(definition.proj4).map_err(|error| refused(&error.to_string()))?;
     if proj.is_latlong() {
-        return Ok(Found { plane: Plane::Geographic { projection: definition.proj4.into() }, unit_m: 1.0 });
+        let plane = Plane::Geographic { projection: definition.proj4.into() };
+        return Ok(Found { plane, unit_m: 1.0, warning: assumed(code, definition.proj4) });
     }
     if proj.is_geocent() {
         return Err(refused("its coordinates are in space, not in a plane"));
@@ -38,7 +42,22 @@ pub(super) fn plane(code: u32) -> Result<Found, String> {
     let unit_m = proj.to_meter();
     // The number stands for the plane in its own unit.
     let epsg = (unit_m == 1.0).then_some(code);
-    Ok(Found { plane: Plane::Projected { projection: in_metres(definition.proj4), epsg }, unit_m })
+    let plane = Plane::Projected { projection: in_metres(definition.proj4), epsg };
+    Ok(Found { plane, unit_m, warning: assumed(code, definition.proj4) })
+}
+
+/// What there is to say about a projection whose datum is told by an ellipsoid alone.
+fn assumed(code: u32, projection: &str) -> Option<Warning> {
+    let tells = |word: &str| {
+        let is_datum = ["+datum=", "+towgs84=", "+nadgrids="].iter().any(|key| word.starts_with(key));
+        // These ellipsoids are those of datums within a metre of WGS 84.
+        is_datum || matches!(word, "+ellps=WGS84" | "+ellps=GRS80")
+    };
+    let text = format!(
+        "the datum of EPSG:{code} is told by its ellipsoid alone and taken for WGS 84: places may be some hundred metres off"
+    );
+    let warning = Warning { code: "datum-assumed".into(), text };
+    (!projection.split_ascii_whitespace().any(tells)).then_some(warning)
 }
 
 /// The same projection with its coordinates in metres. What a PROJ string says of its origin is in metres already.
@@ -95,7 +114,7 @@ mod tests {
     #[test]
     fn numbers_are_planes_in_metres_or_globes_or_refused_with_advice() {
         let projected = |code| match plane(code).unwrap() {
-            Found { plane: Plane::Projected { projection, epsg }, unit_m } => (projection, epsg, unit_m),
+            Found { plane: Plane::Projected { projection, epsg }, unit_m, .. } => (projection, epsg, unit_m),
             other => panic!("{other:?}"),
         };
         let utm31 = "+proj=utm +zone=31 +datum=WGS84 +units=m +no_defs";

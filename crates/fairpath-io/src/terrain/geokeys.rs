@@ -1,9 +1,10 @@
 //! What the tags of GeoTIFF say of a TIFF's coordinates: which plane or globe, in which units, and whether a sample stands for a point or for an area. After
 //! OGC 19-008r4 (GeoTIFF 1.1), whose numbers of keys and values these are.
 
+use super::TerrainOptions;
 use super::epsg;
 use super::hgt::WGS84;
-use super::raster::Plane;
+use super::raster::{Plane, Stored};
 use crate::error::Fault;
 use fairpath_fit::Warning;
 
@@ -70,7 +71,7 @@ impl GeoKeys {
 
     /// The size of the unit of a key, m.
     fn unit_m(&self, key: u16, what: &str) -> Result<Option<f64>, Fault> {
-        let Some(code) = self.get(key).filter(|code| *code != 0) else { return Ok(None) };
+        let Some(code) = self.get(key).filter(|code| !matches!(*code, 0 | USER_DEFINED)) else { return Ok(None) };
         epsg::unit_m(code.into()).map(Some).ok_or_else(|| {
             let problem =
                 format!("the unit of {what} is EPSG:{code}; expected metres, kilometres or feet: convert the file");
@@ -78,8 +79,8 @@ impl GeoKeys {
         })
     }
 
-    /// What they say; `epsg` is what the caller says where they say nothing.
-    pub(super) fn described(&self, epsg: Option<u32>) -> Result<Described, Fault> {
+    /// What they say; the caller knows the number where they say nothing, and the unit of heights better.
+    pub(super) fn described(&self, options: &TerrainOptions) -> Result<Described, Fault> {
         let place = "GeoKeyDirectory";
         let (projected, geodetic) = (self.registered(PROJECTED_CRS), self.registered(GEODETIC_CRS));
         let model = self.get(MODEL_TYPE);
@@ -96,7 +97,7 @@ impl GeoKeys {
         }
         let says_which = matches!(model, Some(MODEL_PROJECTED | MODEL_GEOGRAPHIC));
         let mut warnings = Vec::new();
-        let code = if is_globe { geodetic } else { projected }.or(epsg);
+        let code = if is_globe { geodetic } else { projected }.or(options.epsg);
         let found = code.map(epsg::plane).transpose().unwrap_or_else(|problem| {
             warnings.push(Warning { code: "unknown-projection".into(), text: problem });
             None
@@ -106,6 +107,7 @@ impl GeoKeys {
             Some(found) if is_globe != matches!(found.plane, Plane::Projected { .. }) || !says_which => {
                 let unit =
                     if matches!(found.plane, Plane::Projected { .. }) { told.unwrap_or(found.unit_m) } else { 1.0 };
+                warnings.extend(found.warning);
                 (found.plane, unit)
             }
             _ if is_globe => {
@@ -116,12 +118,13 @@ impl GeoKeys {
             _ => (Plane::Local, told.unwrap_or(1.0)),
         };
         if plane == Plane::Local {
-            let text =
-                "the projection has no EPSG number that is known: where on the globe the terrain lies is not known";
-            warnings.push(Warning { code: "no-georeference".into(), text: text.into() });
+            warnings.push(Stored::without_a_globe());
         }
         let of_heights = self.registered(VERTICAL_CRS).and_then(epsg::unit_of_heights_m);
-        let height_unit_m = self.unit_m(VERTICAL_UNITS, "heights")?.or(of_heights);
+        let height_unit_m = match options.height_unit_m {
+            Some(unit) => Some(unit),
+            None => self.unit_m(VERTICAL_UNITS, "heights")?.or(of_heights),
+        };
         let is_point = self.get(RASTER_TYPE) == Some(RASTER_IS_POINT);
         Ok(Described { plane, unit_m, height_unit_m, is_point, warnings })
     }
@@ -137,38 +140,46 @@ mod tests {
         GeoKeys::new(&directory).unwrap()
     }
 
+    fn numbered(code: u32) -> TerrainOptions {
+        TerrainOptions { epsg: Some(code), ..TerrainOptions::default() }
+    }
+
     fn codes(described: &Described) -> Vec<&str> {
         described.warnings.iter().map(|warning| warning.code.as_str()).collect()
     }
 
     #[test]
     fn planes_and_globes_are_told_apart_with_their_units() {
-        let utm = keys(&[(1024, 1), (1025, 2), (3072, 26_915), (4099, 9003)]).described(None).unwrap();
+        let utm =
+            keys(&[(1024, 1), (1025, 2), (3072, 26_915), (4099, 9003)]).described(&TerrainOptions::default()).unwrap();
         assert!(matches!(utm.plane, Plane::Projected { epsg: Some(26_915), .. }));
         assert!(utm.is_point && utm.unit_m == 1.0 && utm.height_unit_m == Some(1200.0 / 3937.0));
-        let feet = keys(&[(1024, 1), (3072, 2225)]).described(None).unwrap();
+        let feet = keys(&[(1024, 1), (3072, 2225)]).described(&TerrainOptions::default()).unwrap();
         assert!((feet.unit_m - 0.304_800_6).abs() < 1e-7 && !feet.is_point);
         // The key of the unit is more than the register's.
-        assert_eq!(keys(&[(1024, 1), (3072, 2225), (3076, 9001)]).described(None).unwrap().unit_m, 1.0);
-        let globe = keys(&[(1024, 2), (2048, 4269)]).described(None).unwrap();
+        assert_eq!(
+            keys(&[(1024, 1), (3072, 2225), (3076, 9001)]).described(&TerrainOptions::default()).unwrap().unit_m,
+            1.0
+        );
+        let globe = keys(&[(1024, 2), (2048, 4269)]).described(&TerrainOptions::default()).unwrap();
         assert!(matches!(globe.plane, Plane::Geographic { .. }) && globe.warnings.is_empty());
-        assert_eq!(keys(&[(4096, 6360)]).described(Some(4326)).unwrap().height_unit_m, Some(1200.0 / 3937.0));
+        assert_eq!(keys(&[(4096, 6360)]).described(&numbered(4326)).unwrap().height_unit_m, Some(1200.0 / 3937.0));
     }
 
     #[test]
     fn what_is_not_known_is_said_and_the_caller_may_know_it() {
         let unknown = keys(&[(1024, 1), (3072, 32_767), (3076, 9002)]);
-        let described = unknown.described(None).unwrap();
+        let described = unknown.described(&TerrainOptions::default()).unwrap();
         assert_eq!(
             (&described.plane, described.unit_m, codes(&described)),
             (&Plane::Local, 0.3048, vec!["no-georeference"])
         );
-        assert!(matches!(unknown.described(Some(32_631)).unwrap().plane, Plane::Projected { .. }));
-        let described = keys(&[(1024, 2), (2048, 32_767)]).described(None).unwrap();
+        assert!(matches!(unknown.described(&numbered(32_631)).unwrap().plane, Plane::Projected { .. }));
+        let described = keys(&[(1024, 2), (2048, 32_767)]).described(&TerrainOptions::default()).unwrap();
         assert_eq!(codes(&described), ["datum-assumed"]);
-        let described = keys(&[(1024, 1), (3072, 20_000)]).described(None).unwrap();
+        let described = keys(&[(1024, 1), (3072, 20_000)]).described(&TerrainOptions::default()).unwrap();
         assert_eq!(codes(&described), ["unknown-projection", "no-georeference"]);
-        assert!(matches!(GeoKeys::default().described(Some(4326)).unwrap().plane, Plane::Geographic { .. }));
+        assert!(matches!(GeoKeys::default().described(&numbered(4326)).unwrap().plane, Plane::Geographic { .. }));
     }
 
     #[test]
@@ -177,8 +188,12 @@ mod tests {
             assert!(GeoKeys::new(odd).is_err(), "{odd:?}");
         }
         for odd in [(1024, 3), (3076, 9014), (4099, 9101)] {
-            assert!(keys(&[odd]).described(None).is_err(), "{odd:?}");
+            assert!(keys(&[odd]).described(&TerrainOptions::default()).is_err(), "{odd:?}");
         }
-        assert!(keys(&[(1024, 2), (2054, 9101)]).described(None).is_err());
+        // A unit that the caller knows better is not asked for.
+        let feet = TerrainOptions { height_unit_m: Some(0.3048), ..TerrainOptions::default() };
+        assert_eq!(keys(&[(4099, 9101)]).described(&feet).unwrap().height_unit_m, Some(0.3048));
+        assert_eq!(keys(&[(4099, 32_767)]).described(&TerrainOptions::default()).unwrap().height_unit_m, None);
+        assert!(keys(&[(1024, 2), (2054, 9101)]).described(&TerrainOptions::default()).is_err());
     }
 }

@@ -58,11 +58,14 @@ pub(super) fn read(bytes: &[u8], options: &TerrainOptions) -> Result<Raster, Fau
     check_size(size, &options.limits)?;
     let directory = tag(&mut tiff, Tag::GeoKeyDirectoryTag, |value| value.into_u16_vec())?;
     let keys = directory.map_or(Ok(GeoKeys::default()), |directory| GeoKeys::new(&directory))?;
-    let mut described = keys.described(options.epsg)?;
+    let mut described = keys.described(options)?;
     let stored = match stored(&mut tiff, size, &described)? {
         Some(stored) if described.plane == Plane::Local => stored.check_metres().map(|()| stored)?,
         Some(stored) => stored,
         None => {
+            if described.plane != Plane::Local {
+                described.warnings.push(Stored::without_a_place());
+            }
             described.plane = Plane::Local;
             Stored::from_north(size, options.spacing("the TIFF")?)
         }
@@ -74,7 +77,7 @@ pub(super) fn read(bytes: &[u8], options: &TerrainOptions) -> Result<Raster, Fau
         warnings.push(Warning { code: "several-bands".into(), text: text.into() });
     }
     let samples = heights(&mut tiff, size, &meaning, options, &mut warnings)?;
-    if has_mask(&mut tiff)? {
+    if has_mask(&mut tiff) {
         let text = "a mask in the file is not looked at: what it hides is taken for heights";
         warnings.push(Warning { code: "mask-ignored".into(), text: text.into() });
     }
@@ -154,12 +157,17 @@ fn meaning(
         None => None,
     };
     let mut meaning = Meaning { void, scale: 1.0, offset: 0.0, unit_m: described.height_unit_m };
-    if let Some(text) = tag(tiff, GDAL_METADATA, |value| value.into_string())?
-        && let Err(problem) = take_metadata(text.trim_end_matches('\0'), &mut meaning)
-    {
-        let text =
-            format!("what GDAL says of scale, offset and unit of the heights is not understood: {}", excerpt(problem));
-        warnings.push(Warning { code: "metadata-unread".into(), text });
+    if let Some(text) = tag(tiff, GDAL_METADATA, |value| value.into_string())? {
+        // All of it or nothing: a scale without its offset is worse than neither.
+        match with_metadata(text.trim_end_matches('\0'), meaning) {
+            Ok(told) => meaning = told,
+            Err(problem) => {
+                let problem = excerpt(problem);
+                let text =
+                    format!("what GDAL says of scale, offset and unit of the heights is not understood: {problem}");
+                warnings.push(Warning { code: "metadata-unread".into(), text });
+            }
+        }
     }
     // The caller knows better.
     if let Some(unit) = options.height_unit_m {
@@ -169,7 +177,7 @@ fn meaning(
 }
 
 /// Scale, offset and unit of the first band.
-fn take_metadata(text: &str, meaning: &mut Meaning) -> Result<(), String> {
+fn with_metadata(text: &str, mut meaning: Meaning) -> Result<Meaning, String> {
     let bounded = roxmltree::ParsingOptions { nodes_limit: METADATA_NODES, ..Default::default() };
     let document = roxmltree::Document::parse_with_options(text, bounded).map_err(|error| error.to_string())?;
     for item in document.descendants().filter(|node| node.has_tag_name("Item")) {
@@ -191,19 +199,20 @@ fn take_metadata(text: &str, meaning: &mut Meaning) -> Result<(), String> {
             _ => {}
         }
     }
-    Ok(())
+    Ok(meaning)
 }
 
 /// Whether an image of the file says which samples of the first are meant.
-fn has_mask(tiff: &mut Tiff) -> Result<bool, Fault> {
+fn has_mask(tiff: &mut Tiff) -> bool {
     for _ in 0..MOST_IMAGES {
-        // An image of another kind, after the one that was read, is no reason to refuse it.
+        // An image of another kind, or a broken one, after the one that was read, is no reason to refuse it.
         if !tiff.more_images() || tiff.next_image().is_err() {
-            return Ok(false);
+            return false;
         }
-        if tag(tiff, Tag::NewSubfileType, |value| value.into_u32())?.is_some_and(|kind| kind & MASK != 0) {
-            return Ok(true);
+        let kind = tag(tiff, Tag::NewSubfileType, |value| value.into_u32()).ok().flatten();
+        if kind.is_some_and(|kind| kind & MASK != 0) {
+            return true;
         }
     }
-    Ok(false)
+    false
 }

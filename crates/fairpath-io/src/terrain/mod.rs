@@ -15,7 +15,8 @@ mod raw;
 mod resample;
 mod tiff_samples;
 
-pub use options::{RawLayout, RawSample, TerrainOptions};
+pub use fairpath_drive::{RawLayout, RawSample};
+pub use options::TerrainOptions;
 pub use projection::{ProjectionError, Projector, longitude_latitude, point_at};
 
 use crate::error::{Error, Fault};

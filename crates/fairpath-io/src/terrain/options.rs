@@ -2,6 +2,7 @@
 
 use crate::error::Fault;
 use crate::limits::Limits;
+use fairpath_drive::RawLayout;
 
 /// How to read a terrain. Without any of these every file is read that says what it is.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -25,41 +26,6 @@ pub struct TerrainOptions {
     pub raw: Option<RawLayout>,
 }
 
-/// What bare numbers are: rows from the north, each from the west.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct RawLayout {
-    /// Samples from west to east.
-    pub columns: usize,
-    /// Samples from north to south.
-    pub rows: usize,
-    /// What each is.
-    pub sample: RawSample,
-    /// Whether the byte of highest value comes first.
-    pub big_endian: bool,
-}
-
-/// A number in a file without a header.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-#[non_exhaustive]
-pub enum RawSample {
-    /// 0 to 65,535.
-    U16,
-    /// -32,768 to 32,767.
-    I16,
-    /// Single precision.
-    F32,
-}
-
-impl RawSample {
-    /// How many bytes it takes.
-    pub(super) fn bytes(self) -> usize {
-        match self {
-            Self::U16 | Self::I16 => 2,
-            Self::F32 => 4,
-        }
-    }
-}
-
 impl TerrainOptions {
     /// Refuses numbers that nothing could be made of.
     pub(super) fn check(&self) -> Result<(), Fault> {
@@ -81,6 +47,11 @@ impl TerrainOptions {
     pub(super) fn spacing(&self, place: &str) -> Result<f64, Fault> {
         let missing = || Fault::new(place, "it does not say how far apart its samples lie; give `spacing_m`");
         self.spacing_m.ok_or_else(missing)
+    }
+
+    /// Whether a number stands for none by what the caller says; `is_single` tells that it had no more digits than single precision has.
+    pub(super) fn is_void(&self, value: f64, is_single: bool) -> bool {
+        self.void_value.is_some_and(|void| value == void || (is_single && value == f64::from(void as f32)))
     }
 
     /// The height that a number in a file stands for, m; `whole` are the lowest and highest that whole numbers of its kind can be.

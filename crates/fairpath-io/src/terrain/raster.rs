@@ -7,9 +7,9 @@ use fairpath_drive::{MOST_HEIGHT_M, MOST_SAMPLES, Samples, TerrainError};
 use fairpath_fit::Warning;
 use std::fmt::Display;
 
-/// Steps smaller than this, at a place that could be a longitude and a latitude, are taken for degrees, of which it is a kilometre: no terrain has a sample for
-/// each centimetre.
-const LIKE_DEGREES: f64 = 0.01;
+/// Steps smaller than this, at a place that could be a longitude and a latitude, are taken for degrees, of which it is a little more than a minute: no terrain has a sample for
+/// every two centimetres.
+const LIKE_DEGREES: f64 = 0.02;
 
 /// The plane, or the globe, in which a raster's corner and steps are.
 #[derive(Clone, Debug, PartialEq)]
@@ -53,6 +53,18 @@ impl Stored {
     /// Samples at a step from each other from the origin, rows from the north: what pictures and bare numbers are.
     pub(super) fn from_north(size: [usize; 2], spacing: f64) -> Self {
         Self { size, first: [0.0, (size[1] as f64 - 1.0) * spacing], step: [spacing, -spacing] }
+    }
+
+    /// Where samples in metres of nobody knows which projection lie.
+    pub(super) fn without_a_globe() -> Warning {
+        let text = "it has no EPSG number that is known: where on the globe the terrain lies is not known, and its places are taken for metres";
+        Warning { code: "no-georeference".into(), text: text.into() }
+    }
+
+    /// A projection for samples of which nothing says where they lie.
+    pub(super) fn without_a_place() -> Warning {
+        let text = "it tells a projection, but not where in it its samples lie: where on the globe the terrain lies is not known";
+        Warning { code: "no-georeference".into(), text: text.into() }
     }
 
     /// Refuses places that look like degrees although nothing says so.

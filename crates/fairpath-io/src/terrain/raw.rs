@@ -1,9 +1,9 @@
 //! Bare numbers, `.raw`: rows from the north, each from the west, with nothing before or after them. What they are is said by the caller.
 
+use super::TerrainOptions;
 use super::raster::{Plane, Raster, Stored, check_size};
-use super::{RawLayout, RawSample, TerrainOptions};
 use crate::error::Fault;
-use fairpath_drive::Samples;
+use fairpath_drive::{RawLayout, RawSample, Samples};
 
 /// The heights in such a file.
 pub(super) fn read(bytes: &[u8], options: &TerrainOptions) -> Result<Raster, Fault> {
@@ -27,9 +27,9 @@ pub(super) fn read(bytes: &[u8], options: &TerrainOptions) -> Result<Raster, Fau
         );
         return Err(Fault::new(whole, problem));
     }
-    let height = |value: f64, whole: Option<[f64; 2]>| match options.void_value {
-        Some(void) if void == value => f32::NAN,
-        _ => options.height(value, whole) as f32,
+    let is_single = layout.sample == RawSample::F32;
+    let height = |value: f64, whole: Option<[f64; 2]>| {
+        if options.is_void(value, is_single) { f32::NAN } else { options.height(value, whole) as f32 }
     };
     let samples = numbers(bytes, layout, height);
     Stored::from_north(size, spacing).raster(Samples::F32(samples), Plane::Local, Vec::new())

@@ -75,7 +75,7 @@ impl Kind {
 
 impl Meaning {
     fn height(&self, value: f64, kind: Kind, options: &TerrainOptions) -> f64 {
-        if self.is_void(value, kind) || options.void_value == Some(value) {
+        if self.is_void(value, kind) || options.is_void(value, kind.is_single) {
             return f64::NAN;
         }
         if kind.whole.is_some() && options.height_range_m.is_some() {

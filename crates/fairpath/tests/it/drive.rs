@@ -232,6 +232,34 @@ fn imports_come_in_metres_the_right_way_up() {
     }
 }
 
+/// Bare numbers are a terrain once a script says what they are.
+#[test]
+fn raw_terrains_are_told_by_the_script() {
+    let folder = tempdir().unwrap();
+    // A slope that rises by 2 m from one column to the next.
+    let numbers: Vec<u8> =
+        (0..60).flat_map(|_| (0..80_u16).flat_map(|column| (200 + 2 * column).to_be_bytes())).collect();
+    fs::write(folder.path().join("t.raw"), numbers).unwrap();
+    let script = |raw: &str| {
+        let text = format!(
+            "{{\"format\":\"fairpath-drive-script\",\"version\":1,\"commands\":[{{\"do\":\"terrain\",\"file\":\"t.raw\",\"cell_m\":10.0{raw}}},{{\"do\":\"sketch\",\"name\":\"a\",\"points_m\":[[100,300],[700,300]]}}]}}"
+        );
+        fs::write(folder.path().join("s.json"), text).unwrap();
+    };
+    script(r#","raw":{"columns":80,"rows":60,"sample":"u16","big_endian":true}"#);
+    ran(folder.path(), &["drive", "run", "s.json", "--export", "o.csv"]).ended(0);
+    let table = fs::read_to_string(folder.path().join("o.csv")).unwrap();
+    let rows: Vec<Vec<f64>> =
+        table.lines().skip(1).map(|l| l.split(',').skip(1).filter_map(|x| x.parse().ok()).collect()).collect();
+    // x, and the ground below it.
+    assert!(rows.len() > 50 && rows.iter().all(|row| (row[4] - (200.0 + 0.2 * row[1])).abs() < 1e-3), "{table}");
+    for (raw, said) in [("", "(`raw`)"), (r#","raw":{"columns":80,"rows":61,"sample":"u16"}"#, "are 9760")] {
+        script(raw);
+        let refused = ran(folder.path(), &["drive", "run", "s.json"]).ended(2);
+        assert!(refused.err.contains(said), "{}", refused.err);
+    }
+}
+
 #[test]
 fn where_there_is_no_path_formats_that_need_one_say_so() {
     let folder = tempdir().unwrap();
