@@ -58,7 +58,7 @@ pub use ground::{
 pub use heights::{CrossingHeights, HeightError, HeightPoint, Heights, Over, PathPoints};
 pub use network::{
     Arm, Carrier, Choice, Crossing, DrawnHeights, HeightMode, Junction, Meeting, Path, PathId, PathPlace, SketchScale,
-    SpeedZone, Structure, StructureLimits, Turning, Unordered, Way,
+    SketchedPlan, SpeedZone, Structure, StructureLimits, Turning, Unordered, Way,
 };
 pub use playback::{COMFORTABLE_M_S2, Camera, CameraTrack, Drive, DriveError, Moment, drive, smooth_speeds};
 pub use profile::{Elevation, Knot, Profile, ProfileError};

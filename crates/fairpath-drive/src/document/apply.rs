@@ -78,7 +78,7 @@ pub(super) fn apply(
                     let fit = scale.plan(&points, *closed)?;
                     outcome.warnings = fit.warnings;
                     let name = given.unwrap_or_else(|| counted_name(state, layer));
-                    outcome.paths.push(added(&mut next, name, layer, section, fit.spline));
+                    outcome.paths.push(added(&mut next, name, layer, section, fit.plan));
                 }
                 Meant::Changed { path, result, warnings } => {
                     outcome = Outcome { paths: vec![result.id], warnings };

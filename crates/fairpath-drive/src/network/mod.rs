@@ -12,7 +12,7 @@ pub use contact::{Choice, Crossing, Meeting, PathPlace};
 pub use elevation::Unordered;
 pub use junction::{Arm, Junction, Turning, Way};
 pub use path::{DrawnHeights, HeightMode, Path, PathId, SpeedZone};
-pub use sketch::SketchScale;
+pub use sketch::{SketchScale, SketchedPlan};
 pub use structure::{Carrier, Structure, StructureLimits};
 
 pub(crate) use contact::{crossings_between, crossings_within, decide};

@@ -2,7 +2,7 @@
 //! curvature space; here by shortest paths, with a least radius).
 
 use fairpath_curve::{Continuity, Point, Spline};
-use fairpath_fit::{Closing, Fit, FitError, FitOptions, OversketchOptions, Stroke, fit};
+use fairpath_fit::{Closing, CurveEnd, Fit, FitError, FitOptions, OversketchOptions, Stroke, Warning, fit, join};
 
 /// How strokes become plans.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,12 +28,27 @@ impl SketchScale {
     }
 
     /// The plan of a stroke: without corners, and with curvature that goes on at every join. Where no such curve keeps to the stroke at its scale, because it bends more sharply
-    /// than it may, coarser scales are tried.
+    /// than it may, coarser scales are tried; a long stroke with many bends, which no curve follows as a whole, is drawn in parts that are joined where it is straight.
     ///
     /// # Errors
     /// As [`fairpath_fit::fit`].
-    pub fn plan(&self, points: &[Point], closed: bool) -> Result<Fit, FitError> {
-        let stroke = Stroke::new("path", self.evened(points));
+    pub fn plan(&self, points: &[Point], closed: bool) -> Result<SketchedPlan, FitError> {
+        let points = self.evened(points);
+        let mut found = self.in_one(&points, closed)?;
+        if found.is_astray && !closed {
+            let parts = self.in_parts(&points, MOST_HALVINGS).map(|plan| self.judged(plan, &points, Vec::new()));
+            found = parts.filter(|parts| parts.farthest_m < found.farthest_m).unwrap_or(found);
+        }
+        if found.plan.joins().iter().any(|join| *join < Continuity::G2) {
+            let text = "no curve whose curvature goes on everywhere keeps to the stroke".to_owned();
+            found.warnings.push(Warning { code: "curvature-jumps".into(), text });
+        }
+        Ok(found)
+    }
+
+    /// One fit of the whole.
+    fn in_one(&self, points: &[Point], closed: bool) -> Result<SketchedPlan, FitError> {
+        let stroke = Stroke::new("path", points.to_vec());
         let smooth = |fit: &Fit| fit.spline.joins().iter().all(|join| *join >= Continuity::G2);
         let mut scale = *self;
         let mut found = fit(&stroke, &scale.options(closed))?;
@@ -44,7 +59,48 @@ impl SketchScale {
             scale.pixel_m *= COARSER;
             found = fit(&stroke, &scale.options(closed))?;
         }
-        Ok(found)
+        let warnings = found.warnings.into_iter().filter(|w| w.code != FAR).collect();
+        Ok(self.judged(found.spline, points, warnings))
+    }
+
+    /// Two plans, each of half of a stroke, as one; each of its own halves where it strays. Nothing where they cannot be joined.
+    fn in_parts(&self, points: &[Point], halvings: usize) -> Option<Spline> {
+        let middle = straightest(points)?;
+        let half = |points: &[Point]| {
+            let whole = self.in_one(points, false).ok()?;
+            let parts = if whole.is_astray && halvings > 1 { self.in_parts(points, halvings - 1) } else { None };
+            let parts = parts.map(|plan| self.judged(plan, points, Vec::new()));
+            Some(parts.filter(|parts| parts.farthest_m < whole.farthest_m).unwrap_or(whole).plan)
+        };
+        let (first, second) = (half(&points[..=middle])?, half(&points[middle..])?);
+        let most = 1.0 / self.min_radius_m;
+        // The shorter the better, as long as it may bend so.
+        let over = |reach: f64| {
+            let joined = join(&first, CurveEnd::End, &second, CurveEnd::Start, Continuity::G2, reach).ok()?;
+            let sharpest = |plan: &Spline| {
+                let bends = plan.segments().iter().flat_map(|s| [s.kappa0.abs(), s.kappa1.abs()]);
+                bends.fold(0.0, f64::max)
+            };
+            (sharpest(&joined) <= most.max(sharpest(&first)).max(sharpest(&second)) * (1.0 + 1e-9)).then_some(joined)
+        };
+        SEAM_PX.iter().find_map(|reach| over(reach * self.pixel_m))
+    }
+
+    /// A plan beside its stroke.
+    fn judged(&self, plan: Spline, points: &[Point], mut warnings: Vec<Warning>) -> SketchedPlan {
+        let farthest_m = points.iter().map(|p| plan.nearest(*p).distance).fold(0.0, f64::max);
+        let drawn: f64 = points.windows(2).map(|p| (p[1] - p[0]).hypot2().sqrt()).sum();
+        let far = FAR_PX * self.pixel_m;
+        // A loop that nobody drew shows in its length.
+        let is_astray = farthest_m > far || 0.5 * (plan.length() - LONGER * drawn) > far;
+        if is_astray {
+            let text = format!(
+                "the path is up to {farthest_m:.1} m away from the stroke, which is {drawn:.1} m long; the path is {:.1} m",
+                plan.length()
+            );
+            warnings.push(Warning { code: FAR.into(), text });
+        }
+        SketchedPlan { plan, warnings, farthest_m, is_astray }
     }
 
     /// How a stroke is taken that is drawn over a plan.
@@ -76,6 +132,55 @@ impl SketchScale {
         even
     }
 }
+
+/// A stroke as the plan of a path.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SketchedPlan {
+    /// The plan, m.
+    pub plan: Spline,
+    /// What was done differently from what was asked.
+    pub warnings: Vec<Warning>,
+    /// Largest distance of a point of the stroke from it, m.
+    pub farthest_m: f64,
+    /// Whether that is more than anybody would accept.
+    is_astray: bool,
+}
+
+/// Of the points in the middle third of a stroke that about which it is straightest; nothing of a stroke that is too short to be cut.
+fn straightest(points: &[Point]) -> Option<usize> {
+    let n = points.len();
+    if n < LEAST_POINTS {
+        return None;
+    }
+    // How much longer the way along a few points is than straight across.
+    let detour = |i: usize| {
+        let around = &points[i - ABOUT..=i + ABOUT];
+        let along: f64 = around.windows(2).map(|p| (p[1] - p[0]).hypot2().sqrt()).sum();
+        along / (points[i + ABOUT] - points[i - ABOUT]).hypot2().sqrt().max(1e-9)
+    };
+    (n / 3..=2 * n / 3).min_by(|a, b| detour(*a).total_cmp(&detour(*b)))
+}
+
+/// No stroke of fewer points is cut.
+const LEAST_POINTS: usize = 24;
+
+/// So many points on both sides of one tell how straight a stroke is there.
+const ABOUT: usize = 4;
+
+/// A stroke is cut into no more than two to the power of this parts.
+const MOST_HALVINGS: usize = 6;
+
+/// How far two parts are cut back where they are joined, px.
+const SEAM_PX: [f64; 5] = [4.0, 8.0, 16.0, 32.0, 64.0];
+
+/// A plan that is further from its stroke than this strays, px: as a fit itself judges it.
+const FAR_PX: f64 = 7.0;
+
+/// A plan may be longer than its stroke by this factor.
+const LONGER: f64 = 1.01;
+
+/// The code of the warning that says so.
+const FAR: &str = "far-from-stroke";
 
 /// By how much a scale is coarser that is tried next, and how many are.
 const COARSER: f64 = 1.5;

@@ -144,9 +144,12 @@ fn follow(results: &Results, first: &PathResult, forward: bool, legs: &mut Vec<L
         let arm = junction.arms[way.from];
         let Some(last) = legs.pop() else { return };
         let keep = last.plan.length() - beyond(results, at, arm.station_m);
-        if let (Some(plan), Ok(profile)) = (last.plan.subspline(0.0, keep), last.profile.part([0.0, keep])) {
-            legs.push(Leg { plan, profile, ..last });
-        }
+        let (Some(plan), Ok(profile)) = (last.plan.subspline(0.0, keep), last.profile.part([0.0, keep])) else {
+            // Who starts within the intersection is on no way through it, and drives to the path's end.
+            legs.push(last);
+            return;
+        };
+        legs.push(Leg { plan, profile, ..last });
         let speed = legs.last().and_then(|l| l.limits.last()).map_or(8.0, |l| l.1);
         let slow = if way.turning == Turning::Straight { speed } else { speed.min(TURNING_M_S) };
         legs.push(Leg {
