@@ -37,7 +37,12 @@ pub(super) fn xmllint(file: &Path, scratch: &Path) -> Result<Verdict> {
         Some(0) => Ok(Verdict { note: "it is as the schema of alignments wants it".into(), ..Verdict::default() }),
         // Not well-formed, and not valid.
         Some(1 | 3) => {
-            let faults = ran.text.lines().filter(|line| line.contains("error")).map(str::to_owned).collect();
+            let mut faults: Vec<String> =
+                ran.text.lines().filter(|line| line.contains("error")).map(str::to_owned).collect();
+            // Whatever it says, it did not say that the file is valid.
+            if faults.is_empty() {
+                faults.push(ran.text);
+            }
             Ok(Verdict { faults, note: "not as the schema wants it".into(), ..Verdict::default() })
         }
         code => bail!("xmllint ended with {code:?}: {}", ran.text),
