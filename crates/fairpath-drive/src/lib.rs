@@ -30,6 +30,7 @@ mod document;
 mod engineered;
 mod furniture;
 mod ground;
+mod groups;
 mod heights;
 mod network;
 mod playback;
@@ -60,7 +61,9 @@ pub use network::{
     Arm, Carrier, Choice, Crossing, DrawnHeights, HeightMode, Junction, Meeting, Path, PathId, PathPlace, SketchScale,
     SketchedPlan, SpeedZone, Structure, StructureLimits, Turning, Unordered, Way,
 };
-pub use playback::{COMFORTABLE_M_S2, Camera, CameraTrack, Drive, DriveError, Moment, drive, smooth_speeds};
+pub use playback::{
+    COMFORTABLE_M_S2, Camera, CameraTrack, Drive, DriveError, Moment, Play, PlayError, drive, smooth_speeds,
+};
 pub use profile::{Elevation, Knot, Profile, ProfileError};
 pub use range::OutOfRange;
 pub use rules::{Breach, DesignRules, Rule, SpeedRule};

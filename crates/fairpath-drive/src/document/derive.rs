@@ -4,6 +4,7 @@
 use super::state::{FoliageRegion, LaidTerrain, State};
 use crate::furniture::{DRY_M, Sign, Tree, signs, stopping_arms, tiles_of, trees_on};
 use crate::ground::{CorridorSite, CrossSection, Ground, Hit, Hits, TILE, TileIndex, cross_sections, hits};
+use crate::groups::Groups;
 use crate::network::{
     Arm, Crossing, HeightMode, Junction, Path, PathId, PathPlace, Site, Structure, Unordered, alone, crossings_between,
     crossings_within, decide, engineered, junctions, profile_with, structures, wanted_heights,
@@ -492,23 +493,11 @@ fn heights(
 /// Paths in groups that hang together through crossings.
 fn hanging_together(state: &State, crossings: &[Crossing]) -> Vec<Vec<usize>> {
     let index = |id: PathId| state.paths.binary_search_by_key(&id, |p| p.id).ok();
-    let mut group: Vec<usize> = (0..state.paths.len()).collect();
-    let root = |group: &mut Vec<usize>, mut i: usize| {
-        while group[i] != i {
-            group[i] = group[group[i]];
-            i = group[i];
-        }
-        i
-    };
+    let mut groups = Groups::new(state.paths.len());
     for crossing in crossings {
         if let [Some(a), Some(b)] = crossing.places().map(|p| index(p.path)) {
-            let (a, b) = (root(&mut group, a), root(&mut group, b));
-            group[a.max(b)] = a.min(b);
+            groups.unite(a, b);
         }
     }
-    let mut members: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
-    for i in 0..state.paths.len() {
-        members.entry(root(&mut group, i)).or_default().push(i);
-    }
-    members.into_values().collect()
+    groups.all()
 }

@@ -137,6 +137,18 @@ pub(super) fn number(x: f64) -> String {
     if text == "-0" { "0".to_owned() } else { text.to_owned() }
 }
 
+/// Two numbers with as many digits as it takes to tell them apart.
+pub(super) fn apart(x: f64, y: f64) -> [String; 2] {
+    let mut texts = [number(x), number(y)];
+    for digits in 4..=9 {
+        if texts[0] != texts[1] || x == y {
+            break;
+        }
+        texts = [x, y].map(|x| format!("{x:.digits$}"));
+    }
+    texts
+}
+
 /// Whether terms are to be equal to a value, or at least that.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Sense {

@@ -145,34 +145,44 @@ struct Run {
 /// The grades and bends of a road that are exceeded.
 fn exceeded(part: &Part<'_>, road: usize, profile: &Profile, presses: &[f64]) -> Vec<Shortfall> {
     let limits = part.network.roads[road].limits;
+    let whole = &part.network.roads[road];
+    let around = whole.closed.then_some(whole.length_m);
+    let on_road =
+        |station: f64| around.map_or(station, |length| if station > length { station - length } else { station });
     let shortfall = |kind: ShortfallKind, run: &Run, needed: f64, limit: f64| Shortfall {
         kind,
         road,
-        road_name: part.network.roads[road].name.clone(),
+        road_name: whole.name.clone(),
         from_m: run.from_m,
-        to_m: run.to_m,
+        to_m: on_road(run.to_m),
         needed,
         limit,
         because: reasons(part, road, run, presses),
     };
     let mut found = Vec::new();
     for sign in [1.0, -1.0] {
-        for run in runs(profile, limits.max_grade, |[a, b]| [sign * a.grade, sign * b.grade]) {
+        for run in runs(profile, limits.max_grade, around, |[a, b]| [sign * a.grade, sign * b.grade]) {
             found.push(shortfall(ShortfallKind::Grade, &run, run.most, limits.max_grade));
         }
     }
     let curves = [(ShortfallKind::CrestK, -1.0, limits.crest_k_m), (ShortfallKind::SagK, 1.0, limits.sag_k_m)];
     for (kind, sign, k) in curves {
         let bend = |[a, b]: [crate::Knot; 2]| [sign * (b.grade - a.grade) / (b.station_m - a.station_m); 2];
-        for run in runs(profile, greatest_bend(k), bend) {
+        for run in runs(profile, greatest_bend(k), around, bend) {
             found.push(shortfall(kind.clone(), &run, 1.0 / (100.0 * run.most), k));
         }
     }
     found
 }
 
-/// Where something that is linear between knots is beyond a limit.
-fn runs(profile: &Profile, limit: f64, at_ends: impl Fn([crate::Knot; 2]) -> [f64; 2]) -> Vec<Run> {
+/// Where something that is linear between knots is beyond a limit; around a road of the length that is given if it is closed, what leads over its seam is one stretch that
+/// ends beyond its length.
+fn runs(
+    profile: &Profile,
+    limit: f64,
+    around: Option<f64>,
+    at_ends: impl Fn([crate::Knot; 2]) -> [f64; 2],
+) -> Vec<Run> {
     let limit = limit * (1.0 + EXCEEDED);
     let mut runs: Vec<Run> = Vec::new();
     for pair in profile.knots().windows(2) {
@@ -189,6 +199,13 @@ fn runs(profile: &Profile, limit: f64, at_ends: impl Fn([crate::Knot; 2]) -> [f6
             None => runs.push(Run { from_m, to_m, most: a.max(b) }),
         }
     }
+    if let (Some(length), [first, .., last]) = (around, &mut runs[..])
+        && first.from_m <= 0.0
+        && last.to_m >= length
+    {
+        (last.to_m, last.most) = (length + first.to_m, last.most.max(first.most));
+        runs.remove(0);
+    }
     runs
 }
 
@@ -196,7 +213,15 @@ fn runs(profile: &Profile, limit: f64, at_ends: impl Fn([crate::Knot; 2]) -> [f6
 fn reasons(part: &Part<'_>, road: usize, run: &Run, presses: &[f64]) -> Vec<Demand> {
     let mut places: Vec<(usize, [f64; 2])> = Vec::new();
     for (i, asked) in part.asked.iter().enumerate().filter(|(i, _)| presses[*i] > 0.0) {
-        places.extend(asked.demand.stations_on(road).into_iter().map(|range| (i, range)));
+        let on_it = asked.demand.stations_on(road);
+        // Around a closed road the next one may lie beyond its seam.
+        let whole = &part.network.roads[road];
+        let turns = if whole.closed { &[-1.0, 0.0, 1.0][..] } else { &[0.0][..] };
+        let turned = |range: &[f64; 2]| {
+            let range = *range;
+            turns.iter().map(move |turn| (i, range.map(|s| s + turn * whole.length_m)))
+        };
+        places.extend(on_it.iter().flat_map(turned));
     }
     let mut near: Vec<usize> =
         places.iter().filter(|(_, [a, b])| *b > run.from_m && *a < run.to_m).map(|(i, _)| *i).collect();

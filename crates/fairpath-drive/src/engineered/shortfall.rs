@@ -1,6 +1,6 @@
 //! What would have to give where not all limits can be kept.
 
-use super::demand::{Demand, number};
+use super::demand::{Demand, apart, number};
 use std::fmt;
 
 /// What kind of limit would have to give.
@@ -30,7 +30,7 @@ pub struct Shortfall {
     pub road_name: String,
     /// Where it begins to be missed, m.
     pub from_m: f64,
-    /// Where that ends, m.
+    /// Where that ends, m; less than where it begins if that is beyond the seam of a closed road.
     pub to_m: f64,
     /// What it would have to be. The needed values of all shortfalls together make heights possible; each alone need not.
     pub needed: f64,
@@ -48,7 +48,7 @@ impl fmt::Display for Shortfall {
         } else {
             write!(f, "stations {} to {} m: ", number(self.from_m), number(self.to_m))?;
         }
-        let (needed, limit) = (number(self.needed), number(self.limit));
+        let [needed, limit] = apart(self.needed, self.limit);
         let what = match &self.kind {
             ShortfallKind::Grade => "the grade",
             ShortfallKind::CrestK => "K over the crest",

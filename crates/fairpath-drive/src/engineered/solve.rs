@@ -45,7 +45,7 @@ pub struct EngineeredHeights {
     pub earthwork: Vec<Earthwork>,
     /// Whether grades, K, clearances and bounds hold without any tolerance. Otherwise there was no room within them, as where a road is fixed at two points that
     /// only the steepest grade connects; then grades hold to 1e-6, K to 1e-4 of itself, clearances and bounds to 0.1 mm. Given heights and meetings hold
-    /// to 0.1 mm, given grades to 1e-6, always, and mostly to a thousandth of that.
+    /// to 0.1 mm, given grades to 1e-6, always.
     pub strict: bool,
     /// How many iterations the solver took for all parts of the network together.
     pub iterations: u32,

@@ -1,5 +1,7 @@
 //! Points in the order of who passes over whom: pairs come in, the level of each point goes out, or the pairs that make a ring.
 
+use crate::groups::Groups;
+
 /// For each point how many are below it one above the other: 0 for those that pass over nobody. An error gives pairs that make a ring, in its order.
 pub(super) fn levels(count: usize, over: &[(usize, usize)]) -> Result<Vec<f64>, Vec<usize>> {
     // Pairs by their upper point; its level is known once those of all its lower ones are.
@@ -45,23 +47,13 @@ fn ring(over: &[(usize, usize)], waits_for: &[usize]) -> Vec<usize> {
 
 /// The place of each point, where pairs of them are one place, and how many places there are; in the order of their first points.
 pub(super) fn places(points: usize, level: &[(usize, usize)]) -> (Vec<usize>, usize) {
-    let mut parent: Vec<usize> = (0..points).collect();
-    let root = |parent: &mut Vec<usize>, mut i: usize| {
-        while parent[i] != i {
-            parent[i] = parent[parent[i]];
-            i = parent[i];
-        }
-        i
-    };
-    for &(a, b) in level {
-        let (a, b) = (root(&mut parent, a), root(&mut parent, b));
-        // The earlier point stands for both.
-        parent[a.max(b)] = a.min(b);
-    }
+    let mut groups = Groups::new(points);
+    // The earlier point stands for both.
+    level.iter().for_each(|&(a, b)| groups.unite(a, b));
     let mut place = vec![0; points];
     let mut count = 0;
     for i in 0..points {
-        let first = root(&mut parent, i);
+        let first = groups.first_of(i);
         if first == i {
             place[i] = count;
             count += 1;

@@ -2,6 +2,7 @@
 
 use super::contact::{Crossing, Meeting, PathPlace};
 use super::path::{HeightMode, Path, PathId};
+use crate::groups::Groups;
 use crate::heights::{CrossingHeights, HeightError, HeightPoint, Over, PathPoints};
 use crate::profile::{Knot, Profile, ProfileError};
 use crate::smoothing::smoothed;
@@ -291,35 +292,23 @@ fn groups(
     stations: &[Vec<f64>],
     ends: impl Fn(&Crossing, [usize; 2]) -> [HeightPoint; 2],
 ) -> Vec<Vec<HeightPoint>> {
-    let mut group_of: Vec<Vec<Option<usize>>> = stations.iter().map(|s| vec![None; s.len()]).collect();
-    let mut groups: Vec<Vec<HeightPoint>> = Vec::new();
+    let points: Vec<HeightPoint> = (0..stations.len())
+        .flat_map(|path| (0..stations[path].len()).map(move |point| HeightPoint { path, point }))
+        .collect();
+    let starts: Vec<usize> = stations
+        .iter()
+        .scan(0, |before, own| {
+            let start = *before;
+            *before += own.len();
+            Some(start)
+        })
+        .collect();
+    let mut groups = Groups::new(points.len());
     for (_, c, at) in joined {
-        let [p, q] = ends(c, *at);
-        let (a, b) = (group_of[p.path][p.point], group_of[q.path][q.point]);
-        let into = match (a, b) {
-            (None, None) => {
-                groups.push(Vec::new());
-                groups.len() - 1
-            }
-            (Some(a), Some(b)) if a != b => {
-                let moved = std::mem::take(&mut groups[a.max(b)]);
-                for m in &moved {
-                    group_of[m.path][m.point] = Some(a.min(b));
-                }
-                groups[a.min(b)].extend(moved);
-                a.min(b)
-            }
-            (Some(a), _) | (None, Some(a)) => a,
-        };
-        for r in [p, q] {
-            if group_of[r.path][r.point].is_none() {
-                group_of[r.path][r.point] = Some(into);
-                groups[into].push(r);
-            }
-        }
+        let [p, q] = ends(c, *at).map(|p| starts[p.path] + p.point);
+        groups.unite(p, q);
     }
-    groups.retain(|g| !g.is_empty());
-    groups
+    groups.all().into_iter().map(|group| group.into_iter().map(|i| points[i]).collect()).collect()
 }
 
 /// What must lie between the surfaces of two paths that pass over each other, m: what the lower needs free and what the upper is thick.

@@ -2,10 +2,10 @@
 
 use super::contact::{Crossing, Meeting};
 use super::path::{Path, PathId};
+use crate::groups::Groups;
 use crate::profile::{Knot, Profile};
 use crate::section::{Lane, LaneKind};
 use fairpath_curve::{Continuity, Point, Pose, Segment, Spline, Vec2, hermite_g1, hermite_g2_with, trig};
-use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// Radius to which the kerb of a corner is rounded, m.
@@ -138,27 +138,16 @@ fn reach(index: usize, crossing: &Crossing, a: &Path, b: &Path) -> Reach {
 
 /// Crossings in groups, each of which is one intersection.
 fn united<'a>(reaches: &[Reach], path_of: &dyn Fn(PathId) -> Option<&'a Path>) -> Vec<Vec<usize>> {
-    let mut group: Vec<usize> = (0..reaches.len()).collect();
-    fn root(group: &mut [usize], mut i: usize) -> usize {
-        while group[i] != i {
-            group[i] = group[group[i]];
-            i = group[i];
-        }
-        i
-    }
+    let mut groups = Groups::new(reaches.len());
     let mut spans: Vec<(PathId, [f64; 2], usize)> =
         reaches.iter().enumerate().flat_map(|(i, r)| r.spans.iter().map(move |(id, span)| (*id, *span, i))).collect();
     spans.sort_by(|p, q| p.0.cmp(&q.0).then(p.1[0].total_cmp(&q.1[0])).then(p.2.cmp(&q.2)));
     for of_path in spans.chunk_by(|p, q| p.0 == q.0) {
         let mut end = f64::NEG_INFINITY;
         let mut last = None;
-        let mut unite = |i: usize, j: usize| {
-            let (i, j) = (root(&mut group, i), root(&mut group, j));
-            group[i.max(j)] = i.min(j);
-        };
         for (_, [from, to], i) in of_path {
             if let Some(j) = last.filter(|_| *from < end + LEAST_ROAD_M) {
-                unite(*i, j);
+                groups.unite(*i, j);
             }
             (end, last) = (end.max(*to), Some(*i));
         }
@@ -166,14 +155,10 @@ fn united<'a>(reaches: &[Reach], path_of: &dyn Fn(PathId) -> Option<&'a Path>) -
         if let Some(path) = path_of(of_path[0].0).filter(|p| p.plan.is_closed())
             && of_path[0].1[0] + path.length_m() < end + LEAST_ROAD_M
         {
-            unite(of_path[0].2, of_path[of_path.len() - 1].2);
+            groups.unite(of_path[0].2, of_path[of_path.len() - 1].2);
         }
     }
-    let mut members: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
-    for i in 0..reaches.len() {
-        members.entry(root(&mut group, i)).or_default().push(i);
-    }
-    members.into_values().collect()
+    groups.all()
 }
 
 fn junction<'a>(

@@ -2,8 +2,10 @@
 
 mod camera;
 mod drive;
+mod play;
 mod speed;
 
 pub use camera::{Camera, CameraTrack};
 pub use drive::{Drive, DriveError, Moment, drive};
+pub use play::{Play, PlayError};
 pub use speed::{COMFORTABLE_M_S2, smooth_speeds};

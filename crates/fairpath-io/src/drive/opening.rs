@@ -6,7 +6,7 @@ use super::script::{DriveScript, ScriptCommand, read_drive_script_from};
 use crate::error::{Error, Fault};
 use crate::input::{label, open, read_all, text};
 use crate::limits::ReadOptions;
-use fairpath_drive::{Command, Document};
+use fairpath_drive::{Command, Document, Play};
 use fairpath_fit::Warning;
 use std::path::{Path, PathBuf};
 
@@ -17,6 +17,8 @@ pub struct OpenedDrive {
     pub document: Document,
     /// The folder beside whose files it names its terrain.
     pub folder: PathBuf,
+    /// The drives that it asks for; each is possible where it stands in the file.
+    pub plays: Vec<Play>,
     /// What the caller should know: about terrains, strokes, heights, and about a project from whose commands something else follows than when it was saved.
     pub warnings: Vec<Warning>,
 }
@@ -36,8 +38,12 @@ pub fn open_drive(path: &Path, options: &ReadOptions, done: &mut dyn FnMut(usize
         None => read_drive_script_from(&bytes[..], &name, options)?,
     };
     let files = TerrainFolder::beside(path);
-    let mut opened =
-        OpenedDrive { document: Document::new(), folder: files.folder().to_path_buf(), warnings: Vec::new() };
+    let mut opened = OpenedDrive {
+        document: Document::new(),
+        folder: files.folder().to_path_buf(),
+        plays: Vec::new(),
+        warnings: Vec::new(),
+    };
     for (i, command) in script.commands.into_iter().enumerate() {
         let number = i + 1;
         for command in opened.commands(command, number, &files).map_err(|e| e.in_file(&name))? {
@@ -88,6 +94,13 @@ impl OpenedDrive {
         let import = match command {
             ScriptCommand::Document(command) => return Ok(vec![command]),
             ScriptCommand::Import(import) => import,
+            ScriptCommand::Play(play) => {
+                let results = self.document.results().ok_or("lay the terrain first".to_owned());
+                let driven = results.and_then(|r| play.drive(self.document.state(), r).map_err(|e| e.to_string()));
+                driven.map_err(|problem| Trouble::Own(fault(number, "play", problem)))?;
+                self.plays.push(play);
+                return Ok(Vec::new());
+            }
         };
         let Some(terrain) = self.document.state().terrain.clone() else {
             return Err(Trouble::Own(fault(number, "import", "lay the terrain first")));

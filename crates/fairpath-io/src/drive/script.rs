@@ -5,7 +5,7 @@ use crate::error::{Error, Fault};
 use crate::input::{read_all, text};
 use crate::limits::ReadOptions;
 use crate::listed::Listed;
-use fairpath_drive::Command;
+use fairpath_drive::{Command, Play};
 use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::Value;
@@ -28,7 +28,7 @@ pub(crate) struct ScriptRecord {
     commands: Vec<ScriptCommand>,
 }
 
-/// A command of a script: one to the document, or one that becomes several.
+/// A command of a script: one to the document, one that becomes several, or one that shows it.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 #[serde(untagged)]
 pub enum ScriptCommand {
@@ -36,6 +36,8 @@ pub enum ScriptCommand {
     Document(Command),
     /// Lines of a file, each of which is sketched.
     Import(Import),
+    /// A drive, for whoever shows the document.
+    Play(Play),
 }
 
 /// A script.
@@ -60,13 +62,16 @@ pub fn read_drive_script_from(reader: impl Read, name: &str, options: &ReadOptio
 }
 
 fn one(mut value: Value, name: Option<&str>) -> Result<ScriptCommand, serde_json::Error> {
-    if name == Some("import") {
-        // Serde writes the word of a structure but does not read it.
-        if let Some(fields) = value.as_object_mut() {
-            fields.remove("do");
-        }
+    let Some(word @ ("import" | "play")) = name else {
+        return serde_json::from_value(value).map(ScriptCommand::Document);
+    };
+    // Serde writes the word of a structure but does not read it.
+    if let Some(fields) = value.as_object_mut() {
+        fields.remove("do");
+    }
+    if word == "import" {
         serde_json::from_value(value).map(ScriptCommand::Import)
     } else {
-        serde_json::from_value(value).map(ScriptCommand::Document)
+        serde_json::from_value(value).map(ScriptCommand::Play)
     }
 }

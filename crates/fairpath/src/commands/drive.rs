@@ -4,7 +4,7 @@ use std::path::Path;
 use std::time::Instant;
 
 use anyhow::{Context, Result, bail};
-use fairpath_drive::{Breach, CameraTrack, Document, Results, State};
+use fairpath_drive::{Breach, CameraTrack, Document, Play, Results, State};
 use fairpath_io::{
     DriveExport, ExportFormat, OpenedDrive, PathSummary, ReadOptions, encode_drive, encode_earthwork, encode_moments,
     encode_project, open_drive, summaries,
@@ -104,18 +104,21 @@ fn play(args: &DrivePlayArgs, printer: &mut Printer) -> Result<Ending> {
     interrupt::install();
     let opened = opened(&args.project, false, printer)?;
     let (state, results) = laid(&opened.document, &args.project)?;
-    let Some(path) = state.path(&args.path) else {
-        return Err(no_path(state, &args.project, &args.path));
-    };
-    let to = args.to.unwrap_or(path.length_m());
-    let drive = fairpath_drive::drive(results, path.id, [args.from, to], args.on, args.step);
-    let drive = drive.with_context(|| format!("{}: path {:?}", args.project.display(), args.path))?;
     let track = args.camera.map(|name| match name {
         CameraName::Driver => CameraTrack::Driver,
         CameraName::Chase => CameraTrack::Chase,
         CameraName::Aerial => CameraTrack::Aerial,
         CameraName::Side => CameraTrack::Side,
     });
+    let play = Play {
+        path: args.path.clone(),
+        from_m: args.from,
+        to_m: args.to,
+        on: args.on,
+        step_s: args.step,
+        camera: track.unwrap_or_default(),
+    };
+    let drive = play.drive(state, results).with_context(|| args.project.display().to_string())?;
     let mut ready = Ready::default();
     ready.add(&args.output, encode_moments(&drive, track)?);
     ready.write()?;

@@ -175,6 +175,7 @@ fn bad_scripts_are_refused_by_place_and_nothing_is_written() {
             format!("{head}{hills},{{\"do\":\"sketch\",\"name\":\" \",\"points_m\":[[9,9],[99,99]]}}]}}"),
             "must not be empty",
         ),
+        (format!("{head}{hills},{{\"do\":\"play\",\"path\":\"x\"}}]}}"), "command 2 (play): there is no path \"x\""),
         (format!("{head}{hills},{{\"do\":\"import\",\"file\":\"l.csv\",\"only\":\"x\"}}]}}"), "is named \"x\""),
         (
             format!("{head}{hills},{{\"do\":\"import\",\"file\":\"l.csv\",\"offset_m\":[9000,0]}}]}}"),
