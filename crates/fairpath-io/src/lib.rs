@@ -81,8 +81,9 @@ mod xml;
 pub use atomic::write_whole;
 pub use comparison::{ComparedMethod, Comparison, MethodSummary};
 pub use drive::{
-    DriveExport, DriveScript, ExportFormat, OpenedDrive, PathSummary, ScriptCommand, encode_drive, encode_earthwork,
-    encode_moments, encode_project, open_drive, read_drive_script_from, summaries,
+    DriveExport, DriveScript, DriveView, ExportFormat, MOST_PIXELS, OpenedDrive, PathSummary, ScriptCommand,
+    encode_drive, encode_drive_picture, encode_earthwork, encode_moments, encode_project, open_drive,
+    read_drive_script_from, summaries,
 };
 pub use edits::{Edit, Through, read_edits, read_edits_from};
 pub use error::Error;

@@ -349,6 +349,8 @@ pub enum DriveVerb {
     Earthwork(DriveEarthworkArgs),
     /// Drive along a path: where the vehicle is, how it heads and how fast it is, over time, as CSV
     Play(DrivePlayArgs),
+    /// Draw a picture of a network
+    Render(DriveRenderArgs),
 }
 
 /// Arguments of `fairpath drive run`.
@@ -442,6 +444,49 @@ pub struct DriveEarthworkArgs {
     /// Where the table goes; standard output by default
     #[arg(short, long, value_name = "FILE", default_value = "-")]
     pub output: PathBuf,
+}
+
+/// Arguments of `fairpath drive render`.
+#[derive(Args, Debug)]
+#[command(after_help = EXIT_CODES)]
+pub struct DriveRenderArgs {
+    /// The project, or a script
+    #[arg(value_name = "PROJECT")]
+    pub project: PathBuf,
+
+    /// Where the picture goes (PNG); `-` is standard output
+    #[arg(short, long, value_name = "FILE")]
+    pub output: PathBuf,
+
+    /// From where it is taken
+    #[arg(long, value_name = "CAMERA", default_value = "birdseye")]
+    pub camera: ViewName,
+
+    /// Its width and height in pixels
+    #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = picture_size)]
+    pub size: [usize; 2],
+}
+
+/// Two numbers with an x between them.
+fn picture_size(text: &str) -> Result<[usize; 2], String> {
+    let sides: Vec<Option<usize>> = text.split('x').map(|side| side.parse().ok()).collect();
+    match sides[..] {
+        [Some(width), Some(height)] => Ok([width, height]),
+        _ => Err("expected width and height in pixels, such as 1280x720".to_owned()),
+    }
+}
+
+/// From where a picture of a network is taken.
+#[derive(ValueEnum, Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ViewName {
+    /// All of it, from high above
+    Birdseye,
+    /// The middle of it, from half as far and lower
+    Midway,
+    /// A bridge, a tunnel or an intersection, from near by
+    Closeup,
+    /// From the driver's seat, in the middle of the first path
+    Driver,
 }
 
 /// From where a drive is seen.

@@ -156,7 +156,29 @@ fn stretches(count: usize, begins: &dyn Fn(usize) -> bool, ends: &dyn Fn(usize) 
     found
 }
 
-/// The bridge on which a path passes over another one, as far as it may reach beyond the path's ends; none where the other is in the depth of a tunnel.
+/// Whether a path is in one of its tunnels at a station: the ground above it is whole, and carries whatever passes there.
+fn is_in_tunnel(path: &Path, profile: &Profile, station: f64, ground: &Heightfield, limits: &StructureLimits) -> bool {
+    let (length, course) = (path.length_m(), Course::new(&path.plan));
+    let depth = |s: f64| {
+        let s = if path.plan.is_closed() { s.rem_euclid(length) } else { s };
+        ground.height(course.point_at(s)) - profile.at(s).height_m
+    };
+    let range = if path.plan.is_closed() { [station - length, station + length] } else { [0.0, length] };
+    // How far it goes on, and how deep it is there.
+    let side = |step: f64| {
+        let places = (1..).map(|i| station + step * f64::from(i)).take_while(|s| (range[0]..=range[1]).contains(s));
+        let below = places.map(depth).take_while(|depth| *depth > limits.end_share * limits.tunnel_below_m);
+        below.fold((0.0, f64::NEG_INFINITY), |(reach, deepest), depth| (reach + step.abs(), f64::max(deepest, depth)))
+    };
+    let here = depth(station);
+    if !(here > limits.end_share * limits.tunnel_below_m) {
+        return false;
+    }
+    let ((before, a), (after, b)) = (side(-STEP_M), side(STEP_M));
+    here.max(a).max(b) > limits.tunnel_below_m && before + after >= limits.least_length_m
+}
+
+/// The bridge on which a path passes over another one, as far as it may reach beyond the path's ends; none where the other is in a tunnel.
 fn over_path<'a>(
     path: &Path,
     crossing: &Crossing,
@@ -170,10 +192,10 @@ fn over_path<'a>(
         return None;
     }
     let (below, below_profile) = other(lower)?;
-    let natural = ground.height(crossing.point);
-    if natural - below_profile.at(lower.station_m).height_m > limits.tunnel_below_m {
+    if is_in_tunnel(below, below_profile, lower.station_m, ground, limits) {
         return None;
     }
+    let natural = ground.height(crossing.point);
     let (own, cross) = (path.plan.tangent_at(upper.station_m), below.plan.tangent_at(lower.station_m));
     // At a small angle it takes a long bridge, but not one without end.
     let sine = own.cross(cross).abs().max(0.17);

@@ -112,7 +112,7 @@ impl Scene {
         for path in &results.paths {
             roads::add(&mut scene, path, &results.junctions);
             bridges::add(&mut scene, path, results);
-            tunnels::add(&mut scene, path);
+            tunnels::add(&mut scene, path, results);
         }
         intersections::add(&mut scene, state, results);
         signs::add(&mut scene, results);

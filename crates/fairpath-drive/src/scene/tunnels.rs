@@ -3,7 +3,7 @@
 use super::roads::{beside, sections_within};
 use super::shape::{P3, band, cuboid, quad};
 use super::{Finish, Instances, Placement, Scene, part};
-use crate::document::PathResult;
+use crate::document::{PathResult, Results};
 use crate::ground::CrossSection;
 use crate::network::Carrier;
 use crate::section::Material;
@@ -22,10 +22,13 @@ const FACE_M: f64 = 2.5;
 /// A tunnel's portal stands this far in front of where the ground closes over it, m.
 const PORTAL_M: f64 = 4.0;
 
+/// A flat vault is so much higher in the middle than the clearance, m.
+const FLAT_M: f64 = 0.25;
+
 /// From lamp to lamp, m.
 const LAMP_M: f64 = 12.0;
 
-pub(super) fn add(scene: &mut Scene, path: &PathResult) {
+pub(super) fn add(scene: &mut Scene, path: &PathResult, results: &Results) {
     let section = &path.path.section;
     let mut mesh = Mesh::default();
     let mut lamps = Vec::new();
@@ -36,7 +39,11 @@ pub(super) fn add(scene: &mut Scene, path: &PathResult) {
         if run.len() < 2 {
             continue;
         }
-        let outline = vault(section.half_widths_m(), section.clearance_m);
+        // What passes above needs the place that a round vault would take.
+        let lower = results.crossings.iter().filter_map(|c| Some(c.upper_lower()?[1]));
+        let is_below =
+            lower.into_iter().any(|p| p.path == path.path.id && (tunnel.from_m..=tunnel.to_m).contains(&p.station_m));
+        let outline = opening(section.half_widths_m(), section.clearance_m, is_below);
         let line = |[left, up]: [f64; 2]| -> Vec<P3> { run.iter().map(|s| beside(s, left, up)).collect() };
         // Seen from inside: from the right foot over the top to the left foot.
         for pair in outline.windows(2) {
@@ -63,17 +70,18 @@ pub(super) fn add(scene: &mut Scene, path: &PathResult) {
     scene.instances.push(Instances { name: format!("lamps of {}", path.path.name), at: lamps, parts: vec![lamp] });
 }
 
-/// The outline of the opening, left of the middle and above the surface, from the right foot to the left one: upright walls and a round vault over the clearance.
-fn vault([left, right]: [f64; 2], clearance_m: f64) -> Vec<[f64; 2]> {
+/// The outline of the opening, left of the middle and above the surface, from the right foot to the left one: upright walls and above the clearance a round vault, or a flat one.
+fn opening([left, right]: [f64; 2], clearance_m: f64, is_flat: bool) -> Vec<[f64; 2]> {
     let (left, right) = (left + WALL_M, right + WALL_M);
     let (middle, radius) = (0.5 * (left - right), 0.5 * (left + right));
     // The vault begins so low that the clearance fits under it at the edge of what is laid.
-    let rise = (radius * radius - (radius - WALL_M) * (radius - WALL_M)).sqrt();
-    let spring = (clearance_m - rise).max(0.5 * clearance_m);
+    let at_edge = (1.0 - ((radius - WALL_M) / radius).powi(2)).sqrt();
+    let rise = if is_flat { FLAT_M / (1.0 - at_edge) } else { radius };
+    let spring = (clearance_m - rise * at_edge).max(0.5 * clearance_m);
     let mut outline = vec![[-right, -0.3]];
     for k in 0..=VAULT {
         let (sin, cos) = trig::sin_cos(std::f64::consts::PI * k as f64 / VAULT as f64);
-        outline.push([middle - radius * cos, spring + radius * sin]);
+        outline.push([middle - radius * cos, spring + rise * sin]);
     }
     outline.push([left, -0.3]);
     outline

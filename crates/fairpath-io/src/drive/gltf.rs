@@ -3,10 +3,11 @@
 //! Frame: right-handed, metres, y up: x is east, y up, and z south. Positions of meshes are relative to their middle, since buffers hold 24 bits; nodes move them there.
 
 use super::export::DriveExport;
+use super::finishes::{Look, look};
 use crate::error::Error;
 use crate::gltf::{Buffers, container};
 use fairpath_curve::trig;
-use fairpath_drive::{Finish, Material, Part, Placement, Scene, SceneOptions};
+use fairpath_drive::{Finish, Part, Placement, Scene, SceneOptions};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 
@@ -95,28 +96,7 @@ fn placed(name: &str, mesh: usize, at: &Placement) -> Value {
 
 /// Name, colour (linear), roughness and metal of a finish.
 fn material(finish: Finish) -> Value {
-    let (name, [r, g, b], roughness, metallic) = match finish {
-        Finish::Section(Material::Asphalt) => ("asphalt", [0.045, 0.046, 0.05], 0.9, 0.0),
-        Finish::Section(Material::Concrete) => ("concrete", [0.45, 0.44, 0.41], 0.85, 0.0),
-        Finish::Section(Material::Ballast) => ("ballast", [0.2, 0.18, 0.16], 1.0, 0.0),
-        Finish::Section(Material::Earth) => ("trodden earth", [0.3, 0.22, 0.13], 1.0, 0.0),
-        Finish::Section(Material::Grass) => ("grass", [0.09, 0.2, 0.05], 1.0, 0.0),
-        Finish::Section(Material::Steel) => ("steel", [0.55, 0.56, 0.58], 0.4, 0.8),
-        Finish::Section(Material::Wood) => ("wood", [0.13, 0.08, 0.05], 0.9, 0.0),
-        Finish::Section(Material::Paint) => ("paint", [0.85, 0.85, 0.82], 0.6, 0.0),
-        Finish::Section(Material::Cloth) => ("cloth", [0.6, 0.05, 0.12], 0.8, 0.0),
-        Finish::Ground => ("ground", [0.16, 0.24, 0.09], 1.0, 0.0),
-        Finish::Earthwork => ("earthwork", [0.3, 0.24, 0.15], 1.0, 0.0),
-        Finish::Water => ("water", [0.03, 0.12, 0.2], 0.1, 0.0),
-        Finish::Leaves => ("leaves", [0.06, 0.2, 0.03], 1.0, 0.0),
-        Finish::Needles => ("needles", [0.02, 0.1, 0.04], 1.0, 0.0),
-        Finish::Bark => ("bark", [0.12, 0.08, 0.05], 1.0, 0.0),
-        Finish::SignRed => ("sign red", [0.6, 0.01, 0.01], 0.5, 0.0),
-        Finish::SignYellow => ("sign yellow", [0.9, 0.5, 0.0], 0.5, 0.0),
-        Finish::SignWhite => ("sign white", [0.9, 0.9, 0.9], 0.5, 0.0),
-        Finish::SignBlack => ("sign black", [0.01, 0.01, 0.01], 0.5, 0.0),
-        Finish::Light => ("lamp", [1.0, 0.9, 0.6], 0.5, 0.0),
-    };
+    let Look { name, colour: [r, g, b], roughness, metallic } = look(finish);
     let mut material = json!({"name": name, "pbrMetallicRoughness":
         {"baseColorFactor": [r, g, b, 1.0], "metallicFactor": metallic, "roughnessFactor": roughness}});
     if finish == Finish::Light {

@@ -22,7 +22,7 @@ pub use oversketch::{Correction, draw_corrections};
 pub use page::Picture;
 pub(crate) use page::{View, path_data};
 pub use pieces::draw_pieces;
-pub(crate) use shaded::draw as draw_shaded;
+pub(crate) use shaded::{draw as draw_shaded, encode_png};
 pub use sheet::draw_comparison;
 pub use stages::{StagePicture, draw_stages};
 

@@ -154,11 +154,12 @@ impl Canvas {
                 }
             }
         }
-        encode(width, height, &pixels)
+        encode_png(width, height, &pixels)
     }
 }
 
-fn encode(width: usize, height: usize, pixels: &[u8]) -> Result<Vec<u8>, Error> {
+/// Rows of red, green and blue as a PNG file.
+pub(crate) fn encode_png(width: usize, height: usize, pixels: &[u8]) -> Result<Vec<u8>, Error> {
     let fail = |e: png::EncodingError| Error::Unwritable {
         format: "PNG",
         place: "the picture".into(),

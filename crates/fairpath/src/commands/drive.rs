@@ -6,12 +6,15 @@ use std::time::Instant;
 use anyhow::{Context, Result, bail};
 use fairpath_drive::{Breach, CameraTrack, Document, Play, Results, State};
 use fairpath_io::{
-    DriveExport, ExportFormat, OpenedDrive, PathSummary, ReadOptions, encode_drive, encode_earthwork, encode_moments,
-    encode_project, open_drive, summaries,
+    DriveExport, DriveView, ExportFormat, MOST_PIXELS, OpenedDrive, PathSummary, ReadOptions, encode_drive,
+    encode_drive_picture, encode_earthwork, encode_moments, encode_project, open_drive, summaries,
 };
 
 use super::Ending;
-use crate::args::{CameraName, DriveArgs, DriveCheckArgs, DriveEarthworkArgs, DrivePlayArgs, DriveRunArgs, DriveVerb};
+use crate::args::{
+    CameraName, DriveArgs, DriveCheckArgs, DriveEarthworkArgs, DrivePlayArgs, DriveRenderArgs, DriveRunArgs, DriveVerb,
+    ViewName,
+};
 use crate::interrupt;
 use crate::output::{Ready, check_place};
 use crate::printer::{Printer, columns};
@@ -22,6 +25,7 @@ pub(crate) fn run(args: &DriveArgs, printer: &mut Printer) -> Result<Ending> {
         DriveVerb::Check(args) => check(args, printer),
         DriveVerb::Earthwork(args) => earthwork(args, printer),
         DriveVerb::Play(args) => play(args, printer),
+        DriveVerb::Render(args) => render(args, printer),
     }
 }
 
@@ -121,6 +125,26 @@ fn play(args: &DrivePlayArgs, printer: &mut Printer) -> Result<Ending> {
     let drive = play.drive(state, results).with_context(|| args.project.display().to_string())?;
     let mut ready = Ready::default();
     ready.add(&args.output, encode_moments(&drive, track)?);
+    ready.write()?;
+    Ok(Ending::Done)
+}
+
+fn render(args: &DriveRenderArgs, printer: &mut Printer) -> Result<Ending> {
+    check_place(&args.output)?;
+    if !args.size.iter().all(|side| (1..=MOST_PIXELS).contains(side)) {
+        bail!("--size {}x{}: each side has 1 to {MOST_PIXELS} pixels", args.size[0], args.size[1]);
+    }
+    interrupt::install();
+    let opened = opened(&args.project, false, printer)?;
+    let (state, results) = laid(&opened.document, &args.project)?;
+    let view = match args.camera {
+        ViewName::Birdseye => DriveView::Birdseye,
+        ViewName::Midway => DriveView::Midway,
+        ViewName::Closeup => DriveView::Closeup,
+        ViewName::Driver => DriveView::Driver,
+    };
+    let mut ready = Ready::default();
+    ready.add(&args.output, encode_drive_picture(&DriveExport { state, results, name: "" }, view, args.size)?);
     ready.write()?;
     Ok(Ending::Done)
 }

@@ -2,6 +2,7 @@
 
 use super::{Ran, root, run, run_in};
 use std::fs;
+use std::io::BufReader;
 use std::path::Path;
 use tempfile::tempdir;
 
@@ -258,6 +259,47 @@ fn raw_terrains_are_told_by_the_script() {
         script(raw);
         let refused = ran(folder.path(), &["drive", "run", "s.json"]).ended(2);
         assert!(refused.err.contains(said), "{}", refused.err);
+    }
+}
+
+/// A picture shows what there is where it is: asphalt on green ground below a sky, and the driver's road in the middle.
+#[test]
+fn pictures_show_the_network_from_four_places() {
+    let folder = tempdir().unwrap();
+    script(folder.path());
+    let (width, height) = (320, 200);
+    for camera in ["birdseye", "midway", "closeup", "driver"] {
+        let args = ["drive", "render", "roads.json", "-o", "p.png", "--camera", camera, "--size", "320x200"];
+        ran(folder.path(), &args).ended(0);
+        let file = fs::File::open(folder.path().join("p.png")).unwrap();
+        let mut reader = png::Decoder::new(BufReader::new(file)).read_info().unwrap();
+        let mut bytes = vec![0; reader.output_buffer_size().unwrap()];
+        let info = reader.next_frame(&mut bytes).unwrap();
+        assert_eq!((info.width, info.height, info.color_type), (width, height, png::ColorType::Rgb));
+        let colour = |x: u32, y: u32| {
+            let at = 3 * (y * width + x) as usize;
+            [0, 1, 2].map(|k| i32::from(bytes[at + k]))
+        };
+        let all: Vec<[i32; 3]> =
+            (0..height).flat_map(|y| (0..width).map(move |x| (x, y))).map(|(x, y)| colour(x, y)).collect();
+        let share = |is: &dyn Fn(&[i32; 3]) -> bool| all.iter().filter(|c| is(c)).count() as f64 / all.len() as f64;
+        let green = share(&|[r, g, b]| *g > r + 12 && *g > b + 12);
+        let asphalt = share(&|[r, g, b]| (r - g).abs() < 16 && (g - b).abs() < 16 && *r < 110);
+        assert!(green > 0.1, "{camera}: {green} of it is green");
+        // From high above a road is thinner than a pixel.
+        assert!(asphalt > if camera == "driver" { 0.15 } else { 0.0003 }, "{camera}: {asphalt} of it is asphalt");
+        if camera == "driver" {
+            let [r, g, b] = colour(width / 2, height - 2);
+            assert!((r - g).abs() < 16 && (g - b).abs() < 16 && r < 130, "{r} {g} {b}");
+            let [r, _, b] = colour(width / 2, 1);
+            assert!(b > r, "the sky is {r}, {b}");
+        }
+    }
+    for (size, said) in [("0x10", "1 to 8192 pixels"), ("9000x10", "1 to 8192 pixels"), ("10", "such as 1280x720")] {
+        let args = ["drive", "render", "roads.json", "-o", "no.png", "--size", size];
+        let refused = ran(folder.path(), &args).ended(2);
+        assert!(refused.err.contains(said), "{}", refused.err);
+        assert!(!folder.path().join("no.png").exists());
     }
 }
 
