@@ -1,6 +1,7 @@
 //! The ground as triangles: coarse far from paths, as fine as it was shaped where it was.
 
 use super::shape::{P3, quad};
+use super::tunnels::Mouth;
 use super::{Finish, Scene, SceneOptions};
 use crate::document::{Results, State};
 use crate::ground::Ground;
@@ -9,7 +10,8 @@ use fairpath_curve::{Point, Rect};
 use fairpath_shape::Mesh;
 use std::collections::{BTreeMap, BTreeSet};
 
-pub(super) fn add(scene: &mut Scene, state: &State, results: &Results, options: &SceneOptions) {
+/// The ground; `mouths` are the places where a road leads into it, and it is left open.
+pub(super) fn add(scene: &mut Scene, state: &State, results: &Results, options: &SceneOptions, mouths: &[Mouth]) {
     let ground = &results.ground;
     let natural = ground.natural();
     let shaped = shaped_cells(ground);
@@ -67,7 +69,10 @@ pub(super) fn add(scene: &mut Scene, state: &State, results: &Results, options: 
     }
     let (mut wild, mut worked) = (Mesh::default(), Mesh::default());
     for (cell, samples) in &shaped {
-        refined(ground, *cell, samples, &mut wild, &mut worked);
+        let box_of = |[i, j]: [usize; 2]| ground.grid().place([i * ground.grid().parts(), j * ground.grid().parts()]);
+        let [low, high] = [box_of(*cell), box_of([cell[0] + 1, cell[1] + 1])];
+        let near: Vec<&Mouth> = mouths.iter().filter(|m| m.may_lie_in(low, high)).collect();
+        refined(ground, *cell, samples, &near, &mut wild, &mut worked);
     }
     scene.part("terrain beside paths", Finish::Ground, wild);
     scene.part("earthwork", Finish::Earthwork, worked);
@@ -168,7 +173,14 @@ fn is_shaped(
 }
 
 /// One cell of the terrain, divided where it was shaped. Where it was not, the ground is bilinear, so that its borders are straight and meet finer ones without a gap.
-fn refined(ground: &Ground, cell: [usize; 2], samples: &[[usize; 2]], wild: &mut Mesh, worked: &mut Mesh) {
+fn refined(
+    ground: &Ground,
+    cell: [usize; 2],
+    samples: &[[usize; 2]],
+    mouths: &[&Mouth],
+    wild: &mut Mesh,
+    worked: &mut Mesh,
+) {
     let parts = ground.grid().parts();
     let side = parts + 2;
     // How many shaped samples lie to the south-west of each.
@@ -197,6 +209,14 @@ fn refined(ground: &Ground, cell: [usize; 2], samples: &[[usize; 2]], wild: &mut
                 blocks.push(([i + di, j + dj], half));
             }
             continue;
+        }
+        if size == 1 && shaped && !mouths.is_empty() {
+            let corners = [[0, 0], [1, 0], [1, 1], [0, 1]].map(|[di, dj]| [origin[0] + i + di, origin[1] + j + dj]);
+            let middle = ground.grid().place(corners[0]).midpoint(ground.grid().place(corners[2]));
+            let heights = corners.map(|at| ground.sample(at));
+            if mouths.iter().any(|mouth| mouth.opens(middle, &heights)) {
+                continue;
+            }
         }
         let (mesh, numbers) = if shaped { (&mut *worked, &mut numbers[0]) } else { (&mut *wild, &mut numbers[1]) };
         let mut corner = |di: usize, dj: usize| {

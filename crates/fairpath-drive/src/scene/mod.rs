@@ -108,7 +108,8 @@ impl Scene {
     #[must_use]
     pub fn of(state: &State, results: &Results, options: &SceneOptions) -> Self {
         let mut scene = Self::default();
-        ground_mesh::add(&mut scene, state, results, options);
+        let mouths = tunnels::mouths(results);
+        ground_mesh::add(&mut scene, state, results, options, &mouths);
         for path in &results.paths {
             roads::add(&mut scene, path, &results.junctions);
             bridges::add(&mut scene, path, results);
@@ -122,11 +123,11 @@ impl Scene {
         scene
     }
 
-    /// The ground alone.
+    /// The ground alone, without the mouths of tunnels.
     #[must_use]
     pub fn ground(state: &State, results: &Results, options: &SceneOptions) -> Self {
         let mut scene = Self::default();
-        ground_mesh::add(&mut scene, state, results, options);
+        ground_mesh::add(&mut scene, state, results, options, &[]);
         scene.parts.retain(|p| !p.mesh.triangles.is_empty());
         scene
     }

@@ -7,7 +7,8 @@ use crate::document::{PathResult, Results};
 use crate::ground::CrossSection;
 use crate::network::Carrier;
 use crate::section::Material;
-use fairpath_curve::trig;
+use crate::terrain::Heightfield;
+use fairpath_curve::{Point, Vec2, trig};
 use fairpath_shape::Mesh;
 
 /// Sides of the vault.
@@ -30,6 +31,8 @@ const LAMP_M: f64 = 12.0;
 
 pub(super) fn add(scene: &mut Scene, path: &PathResult, results: &Results) {
     let section = &path.path.section;
+    // A step further than the ground is left open.
+    let step = (MOUTH_STEPS + 1.0) * results.ground.grid().step_m();
     let mut mesh = Mesh::default();
     let mut lamps = Vec::new();
     for tunnel in path.structures.iter().filter(|s| s.carrier == Carrier::Tunnel) {
@@ -49,8 +52,12 @@ pub(super) fn add(scene: &mut Scene, path: &PathResult, results: &Results) {
         for pair in outline.windows(2) {
             band(&mut mesh, &line(pair[0]), &line(pair[1]));
         }
-        portal(&mut mesh, &run[0], &outline);
-        portal(&mut mesh, &run[run.len() - 1], &outline);
+        // At its end in the open the portal reaches up to the ground behind it, and a lid leads over to that.
+        for (at_start, section) in [(true, run[0]), (false, run[run.len() - 1])] {
+            let inside = if at_start { tunnel.from_m + step } else { tunnel.to_m - step };
+            let behind = sections_within(&path.sections, [inside, inside]).first().copied();
+            portal(&mut mesh, &section, behind.as_ref(), &outline, results.ground.natural());
+        }
         let top = outline.iter().map(|p| p[1]).fold(0.0, f64::max);
         let count = ((tunnel.to_m - tunnel.from_m) / LAMP_M).floor().max(1.0) as usize;
         for k in 0..count {
@@ -87,22 +94,106 @@ fn opening([left, right]: [f64; 2], clearance_m: f64, is_flat: bool) -> Vec<[f64
     outline
 }
 
-/// The face around the opening.
-fn portal(mesh: &mut Mesh, section: &CrossSection, outline: &[[f64; 2]]) {
-    let top = outline.iter().map(|p| p[1]).fold(0.0, f64::max) + FACE_M;
+/// The face around the opening, and a lid from it to the natural ground at the section behind it.
+fn portal(
+    mesh: &mut Mesh,
+    section: &CrossSection,
+    behind: Option<&CrossSection>,
+    outline: &[[f64; 2]],
+    natural: &Heightfield,
+) {
     let (right, left) = (outline[0][0] - FACE_M, outline[outline.len() - 1][0] + FACE_M);
+    let ground = |behind: &CrossSection, left: f64| {
+        let place = behind.point + behind.left * left;
+        natural.height(place)
+    };
+    let sides = [right, 0.5 * (right + left), left];
+    let above = behind.map_or(f64::NEG_INFINITY, |b| {
+        sides.iter().map(|side| ground(b, *side)).fold(f64::NEG_INFINITY, f64::max) - section.height_m
+    });
+    let top = (outline.iter().map(|p| p[1]).fold(0.0, f64::max) + FACE_M).max(above + EDGE_M);
     let at = |[l, up]: [f64; 2]| beside(section, l, up);
-    let mut face = |corners: [[f64; 2]; 4]| {
-        let [a, b, c, d] = corners.map(at);
-        // Seen from both sides.
+    // Seen from both sides.
+    let mut face = |[a, b, c, d]: [P3; 4]| {
         quad(mesh, [a, b, c, d]);
         quad(mesh, [d, c, b, a]);
     };
     for pair in outline.windows(2) {
         let [a, b] = [pair[0], pair[1]];
-        face([a, b, [b[0], top], [a[0], top]]);
+        face([a, b, [b[0], top], [a[0], top]].map(at));
     }
     let (first, last) = (outline[0], outline[outline.len() - 1]);
-    face([[right, -1.0], [first[0], -1.0], [first[0], top], [right, top]]);
-    face([[last[0], -1.0], [left, -1.0], [left, top], [last[0], top]]);
+    face([[right, -1.0], [first[0], -1.0], [first[0], top], [right, top]].map(at));
+    face([[last[0], -1.0], [left, -1.0], [left, top], [last[0], top]].map(at));
+    if let Some(behind) = behind {
+        let on_ground = |left: f64| {
+            let place = behind.point + behind.left * left;
+            [place.x, place.y, ground(behind, left) - EDGE_M]
+        };
+        for pair in sides.windows(2) {
+            face([at([pair[0], top]), at([pair[1], top]), on_ground(pair[1]), on_ground(pair[0])]);
+        }
+    }
 }
+
+/// A place where a road leads into the ground: there the step between the ground that was cut and that which is whole would close the tunnel.
+pub(super) struct Mouth {
+    point: Point,
+    /// Into the tunnel, and to the left of the path, of length 1.
+    inward: Vec2,
+    left: Vec2,
+    /// How far it reaches inwards and outwards, and to the right and the left, m.
+    along: [f64; 2],
+    across: [f64; 2],
+}
+
+/// The mouths of all tunnels, but for those at which a path ends.
+pub(super) fn mouths(results: &Results) -> Vec<Mouth> {
+    let step = results.ground.grid().step_m();
+    let of = |path: &PathResult| {
+        let ends = path.structures.iter().filter(|s| s.carrier == Carrier::Tunnel);
+        let ends = ends.flat_map(|s| [(s.from_m, 1.0), (s.to_m, -1.0)]);
+        let [left, right] = path.path.section.half_widths_m();
+        let mouth = |(station, sign): (f64, f64)| {
+            let pose = path.path.plan.pose_at(station);
+            let tangent = trig::unit(pose.heading);
+            Mouth {
+                point: pose.point,
+                inward: tangent * sign,
+                left: Vec2::new(-tangent.y, tangent.x),
+                along: [-step, MOUTH_STEPS * step],
+                across: [-(right + WALL_M), left + WALL_M],
+            }
+        };
+        ends.map(mouth).collect::<Vec<_>>()
+    };
+    results.paths.iter().flat_map(|path| of(path)).collect()
+}
+
+impl Mouth {
+    /// Whether a box of the ground may have a part of it.
+    pub(super) fn may_lie_in(&self, low: Point, high: Point) -> bool {
+        let reach = self.along[1].max(self.across[1]).max(-self.across[0]) * std::f64::consts::SQRT_2;
+        let within = |x: f64, low: f64, high: f64| x > low - reach && x < high + reach;
+        within(self.point.x, low.x, high.x) && within(self.point.y, low.y, high.y)
+    }
+
+    /// Whether ground with this middle and these heights at its corners would stand in it.
+    pub(super) fn opens(&self, middle: Point, heights: &[f64]) -> bool {
+        let off = middle - self.point;
+        let (along, across) = (off.dot(self.inward), off.dot(self.left));
+        let (low, high) = heights.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), z| (a.min(*z), b.max(*z)));
+        high - low > STANDS_M
+            && (self.along[0]..=self.along[1]).contains(&along)
+            && (self.across[0]..=self.across[1]).contains(&across)
+    }
+}
+
+/// Ground that rises by more from one sample to the next stands in a mouth, m.
+const STANDS_M: f64 = 2.0;
+
+/// A mouth reaches so many steps of the grid of the ground into it.
+const MOUTH_STEPS: f64 = 2.0;
+
+/// A portal stands out above the ground by this, and its lid reaches as far below it, m.
+const EDGE_M: f64 = 0.3;
