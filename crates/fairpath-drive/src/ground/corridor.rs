@@ -67,7 +67,7 @@ pub struct CrossSection {
     pub left: Vec2,
     /// Curvature of the path there, 1/m, left positive.
     pub curvature: f64,
-    /// Height of the surface, m.
+    /// Height of the surface, m, to the nearest 1/1024.
     pub height_m: f64,
     /// Height of the natural ground below the middle, m.
     pub natural_m: f64,
