@@ -30,7 +30,6 @@ fn roads_with_many_hairpins_keep_to_their_strokes() {
         let points = serpentines(legs, apart_m, seed);
         let scale = SketchScale { pixel_m: 2.0, min_radius_m: 12.0 };
         let sketched = scale.plan(&points, false).unwrap();
-        println!("{legs} legs: {:.1} m, {:?}", sketched.farthest_m, sketched.warnings);
         assert!(sketched.farthest_m <= 14.0, "{legs} legs: {} m", sketched.farthest_m);
         assert!(sketched.plan.joins().iter().all(|join| *join >= Continuity::G2));
         let sharpest = sketched.plan.segments().iter().map(|s| s.kappa0.abs().max(s.kappa1.abs())).fold(0.0, f64::max);

@@ -6,7 +6,7 @@ use super::export::DriveExport;
 use super::finishes::look;
 use super::views::DriveView;
 use crate::error::Error;
-use crate::picture::encode_png;
+use crate::picture::{covered, dot, normalised, to_png, turn};
 use fairpath_curve::trig;
 use fairpath_drive::{Camera, Part, Placement, Scene, SceneOptions};
 
@@ -60,7 +60,7 @@ pub fn encode_drive_picture(export: &DriveExport<'_>, view: DriveView, size: [us
             piece.parts.iter().for_each(|part| canvas.draw(part, &placed, &turn));
         }
     }
-    canvas.to_png()
+    to_png(&canvas.light, canvas.width, SAMPLES)
 }
 
 /// Turns a vector of a piece as its placement says: nose up first, then about the upright.
@@ -192,57 +192,20 @@ impl Canvas {
 
     fn fill(&mut self, corners: [Corner; 3]) {
         let p = corners.map(|c| self.lens.placed(c.seen));
-        let doubled = (p[1][0] - p[0][0]) * (p[2][1] - p[0][1]) - (p[2][0] - p[0][0]) * (p[1][1] - p[0][1]);
-        if doubled == 0.0 || !doubled.is_finite() {
+        let turn = turn(p);
+        if turn == 0.0 || !turn.is_finite() {
             return;
         }
-        let range = |k: usize, most: usize| {
-            let low = p.iter().map(|v| v[k]).fold(f64::INFINITY, f64::min);
-            let high = p.iter().map(|v| v[k]).fold(f64::NEG_INFINITY, f64::max);
-            // Samples lie in the middles of their squares.
-            (((low - 0.5).ceil().max(0.0)) as usize, ((high + 0.5).floor().max(0.0) as usize).min(most))
-        };
-        let ((left, right), (top, bottom)) = (range(0, self.width), range(1, self.height));
-        for row in top..bottom {
-            for column in left..right {
-                let at = [column as f64 + 0.5, row as f64 + 0.5];
-                let weight = |i: usize, j: usize| {
-                    ((p[i][0] - at[0]) * (p[j][1] - at[1]) - (p[j][0] - at[0]) * (p[i][1] - at[1])) / doubled
-                };
-                let weights = [weight(1, 2), weight(2, 0), weight(0, 1)];
-                if weights.iter().any(|&w| w < 0.0) {
-                    continue;
-                }
-                // On the picture 1/distance is linear, and light times it.
-                let near = (0..3).map(|i| weights[i] * p[i][2]).sum::<f64>();
-                let sample = row * self.width + column;
-                if near as f32 > self.near[sample] {
-                    self.near[sample] = near as f32;
-                    self.light[sample] = [0, 1, 2].map(|k| {
-                        ((0..3).map(|i| weights[i] * p[i][2] * corners[i].light[k]).sum::<f64>() / near) as f32
-                    });
-                }
+        let (nearest, light) = (&mut self.near, &mut self.light);
+        covered(p, turn, [self.width, self.height], |sample, weights| {
+            // On the picture 1/distance is linear, and light times it.
+            let near = (0..3).map(|i| weights[i] * p[i][2]).sum::<f64>();
+            if near as f32 > nearest[sample] {
+                nearest[sample] = near as f32;
+                light[sample] = [0, 1, 2]
+                    .map(|k| ((0..3).map(|i| weights[i] * p[i][2] * corners[i].light[k]).sum::<f64>() / near) as f32);
             }
-        }
-    }
-
-    /// The mean of the samples of each pixel.
-    fn to_png(&self) -> Result<Vec<u8>, Error> {
-        let (width, height) = (self.width / SAMPLES, self.height / SAMPLES);
-        let mut pixels = Vec::with_capacity(3 * width * height);
-        for row in 0..height {
-            for column in 0..width {
-                for k in 0..3 {
-                    let samples = (0..SAMPLES * SAMPLES).map(|i| {
-                        let (y, x) = (row * SAMPLES + i / SAMPLES, column * SAMPLES + i % SAMPLES);
-                        f64::from(self.light[y * self.width + x][k])
-                    });
-                    let mean = samples.sum::<f64>() / (SAMPLES * SAMPLES) as f64;
-                    pixels.push((255.0 * mean.clamp(0.0, 1.0).sqrt()).round() as u8);
-                }
-            }
-        }
-        encode_png(width, height, &pixels)
+        });
     }
 }
 
@@ -250,15 +213,6 @@ fn minus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
 }
 
-fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
 fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-}
-
-fn normalised(v: [f64; 3]) -> [f64; 3] {
-    let length = dot(v, v).sqrt();
-    if length > 0.0 { v.map(|x| x / length) } else { [0.0, 0.0, 1.0] }
 }

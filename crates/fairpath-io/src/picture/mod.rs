@@ -10,6 +10,7 @@ mod lettering;
 mod oversketch;
 mod page;
 mod pieces;
+mod raster;
 mod shaded;
 mod sheet;
 mod stages;
@@ -22,7 +23,8 @@ pub use oversketch::{Correction, draw_corrections};
 pub use page::Picture;
 pub(crate) use page::{View, path_data};
 pub use pieces::draw_pieces;
-pub(crate) use shaded::{draw as draw_shaded, encode_png};
+pub(crate) use raster::{covered, dot, normalised, to_png, turn};
+pub(crate) use shaded::draw as draw_shaded;
 pub use sheet::draw_comparison;
 pub use stages::{StagePicture, draw_stages};
 

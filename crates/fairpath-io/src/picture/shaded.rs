@@ -3,6 +3,7 @@
 //! A depth buffer with several samples to a pixel. No light is traced: a key light from the upper left, a fill light from the right, a sky.
 //! Colours are worked out as squares, near enough to what screens do.
 
+use super::raster::{covered, dot, normalised, to_png, turn};
 use crate::error::Error;
 use crate::surfaces::{SurfaceFile, upright};
 
@@ -42,7 +43,7 @@ pub(crate) fn draw(file: &SurfaceFile) -> Result<Vec<u8>, Error> {
             canvas.fill(triangle.map(|i| placed[i as usize]), triangle.map(|i| normals[i as usize]));
         }
     }
-    canvas.to_png()
+    to_png(&canvas.light, canvas.width, SAMPLES)
 }
 
 /// A vector in the viewer's frame: x to the right, y up, z towards the viewer.
@@ -104,76 +105,20 @@ impl Canvas {
 
     fn fill(&mut self, p: [[f64; 3]; 3], normals: [[f64; 3]; 3]) {
         // The picture's y points down, so triangles that face the viewer run clockwise in it.
-        let doubled = (p[1][0] - p[0][0]) * (p[2][1] - p[0][1]) - (p[2][0] - p[0][0]) * (p[1][1] - p[0][1]);
-        if !(doubled < 0.0) {
+        let turn = turn(p);
+        if !(turn < 0.0) {
             return;
         }
-        let range = |k: usize, most: usize| {
-            let low = p.iter().map(|v| v[k]).fold(f64::INFINITY, f64::min);
-            let high = p.iter().map(|v| v[k]).fold(f64::NEG_INFINITY, f64::max);
-            // Samples lie in the middles of their squares.
-            (((low - 0.5).ceil().max(0.0)) as usize, ((high + 0.5).floor().max(0.0) as usize).min(most))
-        };
-        let ((left, right), (top, bottom)) = (range(0, self.width), range(1, self.height));
-        for row in top..bottom {
-            for column in left..right {
-                let at = [column as f64 + 0.5, row as f64 + 0.5];
-                let weight = |i: usize, j: usize| {
-                    ((p[i][0] - at[0]) * (p[j][1] - at[1]) - (p[j][0] - at[0]) * (p[i][1] - at[1])) / doubled
-                };
-                let weights = [weight(1, 2), weight(2, 0), weight(0, 1)];
-                if weights.iter().any(|&w| w < 0.0) {
-                    continue;
-                }
-                let mix = |k: usize| weights[0] * p[0][k] + weights[1] * p[1][k] + weights[2] * p[2][k];
-                let (place, depth) = (row * self.width + column, mix(2));
-                if depth > self.depth[place] {
-                    self.depth[place] = depth;
-                    let normal =
-                        [0, 1, 2].map(|k| (0..3).map(|corner| weights[corner] * normals[corner][k]).sum::<f64>());
-                    self.light[place] = shade(normalised(normal)).map(|x| x as f32);
-                }
+        let (depths, light) = (&mut self.depth, &mut self.light);
+        covered(p, turn, [self.width, self.height], |place, weights| {
+            let depth = weights[0] * p[0][2] + weights[1] * p[1][2] + weights[2] * p[2][2];
+            if depth > depths[place] {
+                depths[place] = depth;
+                let normal = [0, 1, 2].map(|k| (0..3).map(|corner| weights[corner] * normals[corner][k]).sum::<f64>());
+                light[place] = shade(normalised(normal)).map(|x| x as f32);
             }
-        }
+        });
     }
-
-    /// The mean of the samples of each pixel.
-    fn to_png(&self) -> Result<Vec<u8>, Error> {
-        let (width, height) = (self.width / SAMPLES, self.height / SAMPLES);
-        let mut pixels = Vec::with_capacity(3 * width * height);
-        for row in 0..height {
-            for column in 0..width {
-                for k in 0..3 {
-                    let mut sum = 0.0;
-                    for sample in 0..SAMPLES * SAMPLES {
-                        let (y, x) = (row * SAMPLES + sample / SAMPLES, column * SAMPLES + sample % SAMPLES);
-                        sum += f64::from(self.light[y * self.width + x][k]);
-                    }
-                    let mean = sum / (SAMPLES * SAMPLES) as f64;
-                    pixels.push((255.0 * mean.clamp(0.0, 1.0).sqrt()).round() as u8);
-                }
-            }
-        }
-        encode_png(width, height, &pixels)
-    }
-}
-
-/// Rows of red, green and blue as a PNG file.
-pub(crate) fn encode_png(width: usize, height: usize, pixels: &[u8]) -> Result<Vec<u8>, Error> {
-    let fail = |e: png::EncodingError| Error::Unwritable {
-        format: "PNG",
-        place: "the picture".into(),
-        problem: e.to_string(),
-    };
-    let mut bytes = Vec::new();
-    let mut encoder = png::Encoder::new(&mut bytes, width as u32, height as u32);
-    encoder.set_color(png::ColorType::Rgb);
-    encoder.set_depth(png::BitDepth::Eight);
-    encoder.set_compression(png::Compression::High);
-    let mut writer = encoder.write_header().map_err(fail)?;
-    writer.write_image_data(pixels).map_err(fail)?;
-    writer.finish().map_err(fail)?;
-    Ok(bytes)
 }
 
 /// Light that comes from a place with this normal.
@@ -192,13 +137,4 @@ fn shade(normal: [f64; 3]) -> [f64; 3] {
         let around = GROUND[k] + (SKY[k] - GROUND[k]) * up;
         CLAY[k] * (direct + around) + glint + glance * SKY[k]
     })
-}
-
-fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-fn normalised(v: [f64; 3]) -> [f64; 3] {
-    let length = dot(v, v).sqrt();
-    if length > 0.0 { v.map(|x| x / length) } else { [0.0, 0.0, 1.0] }
 }
