@@ -282,6 +282,46 @@ fn distinct(a: &Spline, b: &Spline, found: Vec<SplineIntersection>) -> Vec<Splin
     kept
 }
 
+/// How far a spline turns, to whichever side, up to each of its segments. Where a curve meets itself it has gone round in a loop, which turns by half a turn at least, what it turns where it
+/// meets itself left out (Fenchel's theorem for a curve with one corner).
+struct Turned {
+    /// Up to the start and the end of each segment, radians; what it turns at joins is between an end and the next start.
+    at: Vec<[f64; 2]>,
+    /// In one turn around a closed spline.
+    around: Option<f64>,
+}
+
+impl Turned {
+    fn of(spline: &Spline) -> Self {
+        let segments = spline.segments();
+        let kink = |a: &Segment, b: &Segment| wrap_angle(b.heading - a.end_heading()).abs();
+        let mut sum = 0.0;
+        let mut at = Vec::with_capacity(segments.len());
+        for (i, segment) in segments.iter().enumerate() {
+            if i > 0 {
+                sum += kink(&segments[i - 1], segment);
+            }
+            let start = sum;
+            let (k0, k1) = (segment.kappa0, segment.kappa1);
+            // An inflection divides it in the ratio of its curvatures.
+            let mean = if k0 * k1 < 0.0 { 0.5 * (k0 * k0 + k1 * k1) / (k0 - k1).abs() } else { 0.5 * (k0 + k1).abs() };
+            sum += mean * segment.length;
+            at.push([start, sum]);
+        }
+        let around = spline.is_closed().then(|| sum + kink(&segments[segments.len() - 1], &segments[0]));
+        Self { at, around }
+    }
+
+    /// Whether two segments, the earlier one first, may have a point in common that is no join between them.
+    fn may_meet(&self, i: usize, j: usize) -> bool {
+        const LEAST: f64 = std::f64::consts::PI - 1e-9;
+        let between = self.at[j][1] - self.at[i][0];
+        // What lies between the same two places the other way round.
+        let beyond = self.around.map_or(f64::INFINITY, |around| around - (self.at[j][0] - self.at[i][1]));
+        between >= LEAST && beyond >= LEAST
+    }
+}
+
 impl Spline {
     /// All common points of two splines, in order of the first's segments; see [`Segment::intersections`]. A point at a knot is
     /// reported once; overlaps are reported for each pair of segments.
@@ -293,7 +333,8 @@ impl Spline {
     /// All points where the spline meets itself at two different stations, the earlier place first; its joins do not count.
     #[must_use]
     pub fn self_intersections(&self) -> Vec<SplineIntersection> {
-        let mut found = between(self, self, |i, j| i < j);
+        let turned = Turned::of(self);
+        let mut found = between(self, self, |i, j| i < j && turned.may_meet(i, j));
         let tolerance = 1e-7 * self.length();
         found.retain(|f| f.extent > 0.0 || !same_station(self, f.first, f.second, tolerance));
         for (segment, s) in self.segments().iter().enumerate() {

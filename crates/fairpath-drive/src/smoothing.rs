@@ -13,59 +13,91 @@ use crate::profile::{Knot, Profile, ProfileError};
 /// When there are fewer than two points, stations do not ascend, a number is not finite, or there is not one positive weight for each point and one positive stiffness for each
 /// interval.
 pub fn smoothed(points: &[[f64; 2]], weights: &[f64], stiffness_m3: &[f64]) -> Result<Profile, ProfileError> {
-    let n = points.len();
-    // Whatever is wrong with the points is said by the straight line through them.
-    let straight = Profile::catmull_rom(points)?;
-    let is_positive = |x: &f64| *x > 0.0 && x.is_finite();
-    if stiffness_m3.len() != n - 1 || !stiffness_m3.iter().all(is_positive) {
-        return Err(ProfileError::Stiffness { intervals: n - 1, given: stiffness_m3.len() });
-    }
-    if weights.len() != n || !weights.iter().all(is_positive) {
-        return Err(ProfileError::Weights { points: n, weights: weights.len() });
-    }
-    if n == 2 {
-        return Ok(straight);
-    }
-    let h: Vec<f64> = points.windows(2).map(|pair| pair[1][0] - pair[0][0]).collect();
-    let k = stiffness_m3;
-    // Green and Silverman's Q: the change of grade at each inner point is this combination of three heights.
-    let q = |j: usize| [1.0 / h[j], -1.0 / h[j] - 1.0 / h[j + 1], 1.0 / h[j + 1]];
-    // (R + Qᵀ W⁻¹ Q) m = Qᵀ g for the moments m, where R has the intervals' flexibility; it has two diagonals beside the middle one.
-    let inner = n - 2;
-    let mut band = vec![[0.0; 3]; inner];
-    let mut right = vec![0.0; inner];
-    for j in 0..inner {
-        let qj = q(j);
-        right[j] = (0..3).map(|i| qj[i] * points[j + i][1]).sum();
-        band[j][0] =
-            (h[j] / k[j] + h[j + 1] / k[j + 1]) / 3.0 + (0..3).map(|i| qj[i] * qj[i] / weights[j + i]).sum::<f64>();
-        if j + 1 < inner {
-            let next = q(j + 1);
-            band[j][1] =
-                h[j + 1] / (6.0 * k[j + 1]) + qj[1] * next[0] / weights[j + 1] + qj[2] * next[1] / weights[j + 2];
+    Beam::new(points, weights)?.bent(stiffness_m3)
+}
+
+/// Heights and their weights, to be followed by beams of several stiffnesses.
+pub(crate) struct Beam<'a> {
+    points: &'a [[f64; 2]],
+    /// One over each weight.
+    yielding: Vec<f64>,
+    /// Lengths of the intervals, m, and one over each.
+    lengths: Vec<f64>,
+    inverse: Vec<f64>,
+}
+
+impl<'a> Beam<'a> {
+    /// As [`smoothed`] says.
+    pub(crate) fn new(points: &'a [[f64; 2]], weights: &[f64]) -> Result<Self, ProfileError> {
+        // Whatever is wrong with the points is said by a curve through them.
+        Profile::catmull_rom(points)?;
+        if weights.len() != points.len() || !weights.iter().all(is_positive) {
+            return Err(ProfileError::Weights { points: points.len(), weights: weights.len() });
         }
-        if j + 2 < inner {
-            band[j][2] = qj[2] * q(j + 2)[0] / weights[j + 2];
-        }
+        let lengths: Vec<f64> = points.windows(2).map(|pair| pair[1][0] - pair[0][0]).collect();
+        let inverse = lengths.iter().map(|h| 1.0 / h).collect();
+        Ok(Self { points, yielding: weights.iter().map(|w| 1.0 / w).collect(), lengths, inverse })
     }
-    let moments = solve_band(band, right);
-    let mut heights: Vec<f64> = points.iter().map(|point| point[1]).collect();
-    for (j, moment) in moments.iter().enumerate() {
-        for (i, q) in q(j).into_iter().enumerate() {
-            heights[j + i] -= q * moment / weights[j + i];
+
+    /// The curve for a stiffness of each interval; see [`smoothed`].
+    pub(crate) fn bent(&self, stiffness_m3: &[f64]) -> Result<Profile, ProfileError> {
+        let Self { points, yielding, lengths: h, inverse } = self;
+        let n = points.len();
+        if stiffness_m3.len() != n - 1 || !stiffness_m3.iter().all(is_positive) {
+            return Err(ProfileError::Stiffness { intervals: n - 1, given: stiffness_m3.len() });
         }
-    }
-    let moment = |i: usize| if i == 0 || i + 1 == n { 0.0 } else { moments[i - 1] };
-    let knot = |i: usize| {
-        // From the piece beside it.
-        let grade = if i + 1 < n {
-            (heights[i + 1] - heights[i]) / h[i] - h[i] * (2.0 * moment(i) + moment(i + 1)) / (6.0 * k[i])
-        } else {
-            (heights[i] - heights[i - 1]) / h[i - 1] + h[i - 1] * (moment(i - 1) + 2.0 * moment(i)) / (6.0 * k[i - 1])
+        if n == 2 {
+            return Profile::catmull_rom(points);
+        }
+        let flexibility: Vec<f64> = h.iter().zip(stiffness_m3).map(|(h, k)| h / k).collect();
+        // Green and Silverman's Q: the change of grade at each inner point is this combination of three heights.
+        let q = |j: usize| [inverse[j], -inverse[j] - inverse[j + 1], inverse[j + 1]];
+        // (R + Qᵀ W⁻¹ Q) m = Qᵀ g for the moments m, where R has the intervals' flexibility; it has two diagonals beside the middle one.
+        let inner = n - 2;
+        let mut band = vec![[0.0; 3]; inner];
+        let mut right = vec![0.0; inner];
+        for j in 0..inner {
+            let (qj, y) = (q(j), &yielding[j..j + 3]);
+            right[j] = (points[j + 2][1] - points[j + 1][1]) * qj[2] - (points[j + 1][1] - points[j][1]) * qj[0];
+            band[j][0] = (flexibility[j] + flexibility[j + 1]) / 3.0
+                + (qj[0] * qj[0] * y[0] + qj[1] * qj[1] * y[1] + qj[2] * qj[2] * y[2]);
+            if j + 1 < inner {
+                let next = q(j + 1);
+                band[j][1] = flexibility[j + 1] / 6.0 + qj[1] * next[0] * y[1] + qj[2] * next[1] * y[2];
+            }
+            if j + 2 < inner {
+                band[j][2] = qj[2] * inverse[j + 2] * y[2];
+            }
+        }
+        let moments = solve_band(band, right);
+        let moment = |i: usize| if i == 0 || i + 1 == n { 0.0 } else { moments[i - 1] };
+        // What the beam pushes at each point: the change of its shear.
+        let shear = |i: usize| (moment(i + 1) - moment(i)) * inverse[i];
+        let height = |i: usize| {
+            let push = match i {
+                0 => shear(0),
+                _ if i + 1 == n => -shear(i - 1),
+                _ => shear(i) - shear(i - 1),
+            };
+            points[i][1] - push * yielding[i]
         };
-        Knot { station_m: points[i][0], height_m: heights[i], grade }
-    };
-    Profile::new((0..n).map(knot).collect())
+        let heights: Vec<f64> = (0..n).map(height).collect();
+        let knot = |i: usize| {
+            // From the piece beside it.
+            let grade = if i + 1 < n {
+                (heights[i + 1] - heights[i]) * inverse[i] - flexibility[i] * (2.0 * moment(i) + moment(i + 1)) / 6.0
+            } else {
+                (heights[i] - heights[i - 1]) * inverse[i - 1]
+                    + flexibility[i - 1] * (moment(i - 1) + 2.0 * moment(i)) / 6.0
+            };
+            Knot { station_m: points[i][0], height_m: heights[i], grade }
+        };
+        Profile::new((0..n).map(knot).collect())
+    }
+}
+
+fn is_positive(x: &f64) -> bool {
+    *x > 0.0 && x.is_finite()
 }
 
 /// Solves a symmetric positive definite system of which the diagonal and two beside it are given (L D Lᵀ).
@@ -73,7 +105,8 @@ fn solve_band(mut band: Vec<[f64; 3]>, mut x: Vec<f64>) -> Vec<f64> {
     let n = band.len();
     for j in 0..n {
         let [pivot, one, two] = band[j];
-        let (l1, l2) = (one / pivot, two / pivot);
+        let inverse = 1.0 / pivot;
+        let (l1, l2) = (one * inverse, two * inverse);
         if j + 1 < n {
             band[j + 1][0] -= l1 * one;
             band[j + 1][1] -= l1 * two;
@@ -83,11 +116,11 @@ fn solve_band(mut band: Vec<[f64; 3]>, mut x: Vec<f64>) -> Vec<f64> {
             band[j + 2][0] -= l2 * two;
             x[j + 2] -= l2 * x[j];
         }
-        band[j] = [pivot, l1, l2];
+        band[j] = [inverse, l1, l2];
     }
     for j in (0..n).rev() {
-        let [pivot, l1, l2] = band[j];
-        x[j] /= pivot;
+        let [inverse, l1, l2] = band[j];
+        x[j] *= inverse;
         if j + 1 < n {
             x[j] -= l1 * x[j + 1];
         }

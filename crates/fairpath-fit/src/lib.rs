@@ -32,6 +32,7 @@ mod hooks;
 mod linear;
 mod options;
 mod oversketch;
+pub mod parallel;
 mod polyline;
 mod primitive_fit;
 mod resample;

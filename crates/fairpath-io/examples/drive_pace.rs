@@ -1,4 +1,4 @@
-//! Prints how long editing takes: every path of a script is drawn over, in the middle third of it, a few metres aside, and what follows is worked out: heights, ground, signs, trees.
+//! Prints how long editing takes: every path of a script is drawn over, a few metres aside, once in its middle or, if it is long, in each kilometre of it, and what follows is worked out: heights, ground, signs, trees.
 //! The stroke leaves the path by a twentieth of its length, but bends no more than by a quarter of what the path may: a stroke that asks for what is forbidden is fitted several times.
 //!
 //! ```sh
@@ -16,8 +16,11 @@ use fairpath_io::{ReadOptions, open_drive};
 /// Size of a pixel of the strokes, m, as the example scripts have it.
 const PIXEL_M: f64 = 2.0;
 
-/// The middle third of a path, but no more of it than this, m.
+/// A stroke reaches over a third of the path, but not further than this, m.
 const LONGEST_M: f64 = 400.0;
+
+/// A path is drawn over once for each such length of it, m.
+const EACH_M: f64 = 1000.0;
 
 fn main() -> Result<(), Box<dyn Error>> {
     for script in std::env::args().skip(1) {
@@ -43,32 +46,36 @@ fn measured(document: &mut Document, path: &Path, mode: &str) -> Result<(), Box<
     for old in document.state().paths.clone() {
         let length = old.length_m();
         let extent = (length / 3.0).min(LONGEST_M);
-        let (from, count) = (0.5 * (length - extent), (extent / 4.0).ceil().max(8.0) as usize);
+        let count = (extent / 4.0).ceil().max(8.0) as usize;
         // The bend of the quartic below is sharpest at its ends.
         let aside = (0.05 * extent).min(0.25 / old.section.min_radius_m * extent * extent / 32.0);
-        let points: Vec<Point> = (0..=count)
-            .map(|i| {
-                let t = i as f64 / count as f64;
-                let pose = old.plan.pose_at(from + t * extent);
-                let tangent = fairpath_curve::trig::unit(pose.heading);
-                pose.point + Vec2::new(-tangent.y, tangent.x) * (aside * 16.0 * t * t * (1.0 - t) * (1.0 - t))
-            })
-            .collect();
-        let points_m = points.iter().map(|p| [p.x, p.y]).collect();
-        let command = Command::Oversketch { points_m, path: Some(old.name.clone()), pixel_m: PIXEL_M };
-        let begun = Instant::now();
-        if document.run(command, &NoFiles).is_err() {
-            refused += 1;
-            continue;
+        let strokes = (length / EACH_M).floor().max(1.0) as usize;
+        for stroke in 0..strokes {
+            let from = (stroke as f64 + 0.5) / strokes as f64 * length - 0.5 * extent;
+            let points: Vec<Point> = (0..=count)
+                .map(|i| {
+                    let t = i as f64 / count as f64;
+                    let pose = old.plan.pose_at(from + t * extent);
+                    let tangent = fairpath_curve::trig::unit(pose.heading);
+                    pose.point + Vec2::new(-tangent.y, tangent.x) * (aside * 16.0 * t * t * (1.0 - t) * (1.0 - t))
+                })
+                .collect();
+            let points_m = points.iter().map(|p| [p.x, p.y]).collect();
+            let command = Command::Oversketch { points_m, path: Some(old.name.clone()), pixel_m: PIXEL_M };
+            let begun = Instant::now();
+            if document.run(command, &NoFiles).is_err() {
+                refused += 1;
+                continue;
+            }
+            times.push(1e3 * begun.elapsed().as_secs_f64());
+            document.undo();
+            let scale = SketchScale { pixel_m: PIXEL_M, min_radius_m: old.section.min_radius_m };
+            let begun = Instant::now();
+            let stroke = fairpath_fit::Stroke::new("s", scale.evened(&points));
+            let done = fairpath_fit::oversketch(&old.plan, &stroke, &scale.oversketching());
+            fits.push(1e3 * begun.elapsed().as_secs_f64());
+            drop(done);
         }
-        times.push(1e3 * begun.elapsed().as_secs_f64());
-        document.undo();
-        let scale = SketchScale { pixel_m: PIXEL_M, min_radius_m: old.section.min_radius_m };
-        let begun = Instant::now();
-        let stroke = fairpath_fit::Stroke::new("s", scale.evened(&points));
-        let done = fairpath_fit::oversketch(&old.plan, &stroke, &scale.oversketching());
-        fits.push(1e3 * begun.elapsed().as_secs_f64());
-        drop(done);
     }
     if times.is_empty() {
         return Err(format!("{}: no path could be edited", path.display()).into());
@@ -78,9 +85,10 @@ fn measured(document: &mut Document, path: &Path, mode: &str) -> Result<(), Box<
     let at = |all: &[f64], share: f64| all.get((share * (all.len() - 1) as f64) as usize).copied().unwrap_or(f64::NAN);
     let [columns, rows] = terrain.field.size();
     println!(
-        "{}, {mode}: terrain of {columns} × {rows}, {} paths, of which {refused} could not be edited; an edit takes {:.1} ms (median), {:.1} (90 of 100), {:.1} at most; of it the fit {:.1}, {:.1}, {:.1}",
+        "{}, {mode}: terrain of {columns} × {rows}, {} paths, {} strokes, of which {refused} were refused; an edit takes {:.1} ms (median), {:.1} (90 of 100), {:.1} at most; of it the fit {:.1}, {:.1}, {:.1}",
         path.display(),
         document.state().paths.len(),
+        times.len() + refused,
         at(&times, 0.5),
         at(&times, 0.9),
         at(&times, 1.0),

@@ -11,6 +11,7 @@ use crate::network::{
 };
 use crate::profile::Profile;
 use fairpath_curve::Rect;
+use fairpath_fit::parallel;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
@@ -76,6 +77,10 @@ impl Results {
 
 /// What follows from `state`, whose terrain is `terrain`; `before` is a state with what follows from it.
 pub(super) fn derive(before: Option<(&State, &Results)>, state: &State, terrain: &LaidTerrain) -> Results {
+    parallel::within(|| derived(before, state, terrain))
+}
+
+fn derived(before: Option<(&State, &Results)>, state: &State, terrain: &LaidTerrain) -> Results {
     let before = before.filter(|(old, _)| old.terrain.as_ref().is_some_and(|t| is_same_terrain(t, terrain)));
     let old_path = |id: PathId| before.and_then(|(_, results)| results.path(id));
     let is_old = |path: &Arc<Path>| old_path(path.id).is_some_and(|old| Arc::ptr_eq(&old.path, path));
@@ -235,15 +240,13 @@ impl Dirty {
         };
         if !same {
             self.shaped.insert(tile);
-            let cleared = |hits: Option<&'_ Arc<Vec<Hit>>>| {
-                let hits = hits.map_or(&[][..], |hits| hits).iter();
-                hits.filter(|h| h.keeps_clear()).map(|h| h.sample).collect::<Vec<u16>>()
-            };
-            let (old, new) = (cleared(old), cleared(new));
-            if old != new {
+            fn cleared(hits: Option<&Arc<Vec<Hit>>>) -> impl Iterator<Item = u16> {
+                hits.into_iter().flat_map(|hits| hits.iter()).filter(|h| h.keeps_clear()).map(|h| h.sample)
+            }
+            if !cleared(old).eq(cleared(new)) {
                 // A tree beside a sample at the rim of a tile may stand on the next one.
                 let [mut columns, mut rows] = tile.map(|i| [i, i]);
-                for sample in old.into_iter().chain(new) {
+                for sample in cleared(old).chain(cleared(new)) {
                     let at = [sample % TILE as u16, sample / TILE as u16];
                     for (range, (at, i)) in [&mut columns, &mut rows].into_iter().zip(at.into_iter().zip(tile)) {
                         let last = usize::from(at) == TILE - 1;
@@ -323,10 +326,13 @@ fn planted(
         }
     }
     let corridors: Vec<&Hits> = paths.iter().map(|p| p.hits.as_ref()).collect();
-    for tile in which {
+    let which: Vec<TileIndex> = which.into_iter().collect();
+    let planted = parallel::map(&which, |tile| {
         // Most paths are far away.
-        let near: Vec<&Hits> = corridors.iter().copied().filter(|hits| is_near(hits, tile)).collect();
-        let new = trees_on(tile, ground, &state.foliage, &near, &terrain.waters, state.settings.seed);
+        let near: Vec<&Hits> = corridors.iter().copied().filter(|hits| is_near(hits, *tile)).collect();
+        trees_on(*tile, ground, &state.foliage, &near, &terrain.waters, state.settings.seed)
+    });
+    for (tile, new) in which.into_iter().zip(planted) {
         if new.is_empty() {
             trees.remove(&tile);
         } else {

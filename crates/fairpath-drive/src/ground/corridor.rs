@@ -6,6 +6,7 @@ use crate::network::{Carrier, Path, Structure};
 use crate::profile::Profile;
 use crate::terrain::Heightfield;
 use fairpath_curve::{Point, Pose, Vec2};
+use fairpath_fit::parallel;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
@@ -151,14 +152,11 @@ pub(crate) fn cross_sections(
     let pairs = before.iter().rev().zip(bare.iter().rev()).take(rest);
     let back = pairs.take_while(|(old, new)| is_same(old, new)).count();
     let (old, new) = (front..before.len() - back, front..bare.len() - back);
-    let one = |(i, bare): (usize, CrossSection)| {
-        if new.contains(&i) {
-            return shaped(bare, path, site);
-        }
-        let kept = if i < front { before[i] } else { before[i - new.end + old.end] };
-        CrossSection { station_m: bare.station_m, ..kept }
-    };
-    let all = bare.into_iter().enumerate().map(one).collect();
+    let fresh = parallel::map(&bare[new.clone()], |bare| shaped(*bare, path, site));
+    let kept = |old: &CrossSection, bare: &CrossSection| CrossSection { station_m: bare.station_m, ..*old };
+    let ahead = before.iter().zip(&bare[..front]).map(|(old, bare)| kept(old, bare));
+    let behind = before[old.end..].iter().zip(&bare[new.end..]).map(|(old, bare)| kept(old, bare));
+    let all = ahead.chain(fresh).chain(behind).collect();
     Sections { all, new, old }
 }
 
@@ -182,7 +180,7 @@ fn bare_sections(path: &Path, profile: &Profile, structures: &[Structure]) -> Ve
             areas_m2: [0.0; 2],
         }
     };
-    places(path, structures).into_iter().map(|(place, carrier)| bare(place, carrier)).collect()
+    parallel::map(&places(path, structures), |(place, carrier)| bare(*place, *carrier))
 }
 
 /// A cross-section on the ground.

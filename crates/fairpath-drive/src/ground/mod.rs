@@ -18,6 +18,7 @@ pub(crate) use tiles::TILE;
 
 use crate::terrain::Heightfield;
 use fairpath_curve::Point;
+use fairpath_fit::parallel;
 use std::collections::BTreeSet;
 use std::sync::Arc;
 use tiles::{Tile, Tiles};
@@ -77,10 +78,15 @@ impl Ground {
         tiles.into_iter().filter(|tile| !same(tile)).collect()
     }
 
+    /// The height of a sample of the fine grid before anything was shaped, m.
+    fn natural_at(&self, at: [usize; 2]) -> f64 {
+        self.natural.height_between(at, self.grid.parts())
+    }
+
     /// The height of a sample of the fine grid, m.
     #[must_use]
     pub fn sample(&self, at: [usize; 2]) -> f64 {
-        self.shaped(at).unwrap_or_else(|| self.natural.height(self.grid.place(at)))
+        self.shaped(at).unwrap_or_else(|| self.natural_at(at))
     }
 
     /// The height of a sample of the fine grid, m, if it was shaped.
@@ -107,8 +113,7 @@ impl Ground {
         if shaped.iter().all(Option::is_none) {
             return self.natural.height(place);
         }
-        let z: Vec<f64> =
-            (0..4).map(|i| shaped[i].unwrap_or_else(|| self.natural.height(self.grid.place(around[i])))).collect();
+        let z: Vec<f64> = (0..4).map(|i| shaped[i].unwrap_or_else(|| self.natural_at(around[i]))).collect();
         (z[0] * (1.0 - u) + z[1] * u) * (1.0 - v) + (z[2] * (1.0 - u) + z[3] * u) * v
     }
 
@@ -116,31 +121,10 @@ impl Ground {
     /// not depend on when they were drawn.
     #[must_use]
     pub(crate) fn reshaped(&self, which: &BTreeSet<TileIndex>, corridors: &[&Hits]) -> Self {
+        let which: Vec<TileIndex> = which.iter().copied().collect();
+        let shaped = parallel::map(&which, |tile| self.shaped_samples_of(*tile, corridors));
         let mut tiles = self.tiles.clone();
-        for &tile in which {
-            let asked: Vec<&[Hit]> = corridors.iter().filter_map(|hits| Some(hits.get(&tile)?.as_slice())).collect();
-            let natural = |sample: u16| self.natural.height(self.grid.place(self.grid.sample_of(tile, sample))) as f32;
-            let bounded = |z: f32, hit: &Hit| z.min(hit.high_m).max(hit.low_m);
-            let mut samples = Vec::new();
-            let mut add = |sample: u16, natural: f32, z: f32| {
-                if z != natural {
-                    samples.push((sample, z));
-                }
-            };
-            if let [alone] = asked[..] {
-                for hit in alone {
-                    let natural = natural(hit.sample);
-                    add(hit.sample, natural, bounded(natural, hit));
-                }
-            } else {
-                let mut all: Vec<&Hit> = asked.into_iter().flatten().collect();
-                // The nearest path has the last word, and of two as near the one that was drawn later.
-                all.sort_by(|p, q| p.sample.cmp(&q.sample).then(q.beyond_m.total_cmp(&p.beyond_m)));
-                for group in all.chunk_by(|p, q| p.sample == q.sample) {
-                    let natural = natural(group[0].sample);
-                    add(group[0].sample, natural, group.iter().fold(natural, |z, hit| bounded(z, hit)));
-                }
-            }
+        for (tile, samples) in which.into_iter().zip(shaped) {
             if samples.is_empty() {
                 tiles.remove(&tile);
             } else {
@@ -148,6 +132,34 @@ impl Ground {
             }
         }
         Self { natural: self.natural.clone(), grid: self.grid, tiles }
+    }
+
+    /// The samples of a tile that are shaped where these corridors are, in order, and their heights, m.
+    fn shaped_samples_of(&self, tile: TileIndex, corridors: &[&Hits]) -> Vec<(u16, f32)> {
+        let asked: Vec<&[Hit]> = corridors.iter().filter_map(|hits| Some(hits.get(&tile)?.as_slice())).collect();
+        let natural = |sample: u16| self.natural_at(self.grid.sample_of(tile, sample)) as f32;
+        let bounded = |z: f32, hit: &Hit| z.min(hit.high_m).max(hit.low_m);
+        let mut samples = Vec::new();
+        let mut add = |sample: u16, natural: f32, z: f32| {
+            if z != natural {
+                samples.push((sample, z));
+            }
+        };
+        if let [alone] = asked[..] {
+            for hit in alone {
+                let natural = natural(hit.sample);
+                add(hit.sample, natural, bounded(natural, hit));
+            }
+        } else {
+            let mut all: Vec<&Hit> = asked.into_iter().flatten().collect();
+            // The nearest path has the last word, and of two as near the one that was drawn later.
+            all.sort_by(|p, q| p.sample.cmp(&q.sample).then(q.beyond_m.total_cmp(&p.beyond_m)));
+            for group in all.chunk_by(|p, q| p.sample == q.sample) {
+                let natural = natural(group[0].sample);
+                add(group[0].sample, natural, group.iter().fold(natural, |z, hit| bounded(z, hit)));
+            }
+        }
+        samples
     }
 
     /// No height on a tile is lower, m.
@@ -168,7 +180,7 @@ impl Ground {
         let mut volumes = [0.0; 2];
         for (&tile, shaped) in &self.tiles {
             for &(sample, z) in &shaped.samples {
-                let raised = f64::from(z) - self.natural.height(self.grid.place(self.grid.sample_of(tile, sample)));
+                let raised = f64::from(z) - self.natural_at(self.grid.sample_of(tile, sample));
                 volumes[usize::from(raised > 0.0)] += raised.abs() * cell;
             }
         }

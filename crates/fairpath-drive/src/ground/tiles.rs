@@ -86,12 +86,6 @@ impl FineGrid {
         Some([columns, rows])
     }
 
-    /// The column of a place towards east, with what lies between two.
-    #[inline]
-    pub(crate) fn column_at(&self, x: f64) -> f64 {
-        (x - self.corner.x) / self.step.x
-    }
-
     /// The tiles in which these samples lie, by first and last column and row.
     pub(crate) fn tiles(&self, columns: [usize; 2], rows: [usize; 2]) -> impl Iterator<Item = TileIndex> + use<> {
         let [[first, low], [last, high]] = [0, 1].map(|i| self.tile_of([columns[i], rows[i]]).0);

@@ -170,10 +170,16 @@ pub(crate) fn crossings_within(path: &Path) -> Vec<Crossing> {
         }
         // The nearest place that is not the end's own neighbourhood.
         let own = |s: f64| (s - station).abs() <= 4.0 * width + 2.0 * END_REACH_M;
-        let nearest = (0..path.plan.segments().len())
-            .flat_map(|i| path.plan.segments()[i].nearest_all(end).into_iter().map(move |n| (i, n)))
+        let reach = 0.5 * width + END_REACH_M;
+        let nearest = path
+            .plan
+            .segments()
+            .iter()
+            .enumerate()
+            .filter(|(_, segment)| segment.bounding_box().inflate(reach, reach).contains(end))
+            .flat_map(|(i, segment)| segment.nearest_all(end).into_iter().map(move |n| (i, n)))
             .map(|(i, n)| (path.plan.station(i, n.s), n))
-            .filter(|(s, n)| !own(*s) && n.distance <= 0.5 * width + END_REACH_M)
+            .filter(|(s, n)| !own(*s) && n.distance <= reach)
             .min_by(|p, q| p.1.distance.total_cmp(&q.1.distance));
         if let Some((other, near)) = nearest {
             let (s, t) = (station.min(other), station.max(other));

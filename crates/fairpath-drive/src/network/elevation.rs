@@ -5,9 +5,10 @@ use super::path::{HeightMode, Path, PathId};
 use crate::groups::Groups;
 use crate::heights::{CrossingHeights, HeightError, HeightPoint, Over, PathPoints};
 use crate::profile::{Knot, Profile, ProfileError};
-use crate::smoothing::smoothed;
+use crate::smoothing::{Beam, smoothed};
 use crate::terrain::{Heightfield, Waters};
-use fairpath_curve::Point;
+use fairpath_curve::{Point, Segment};
+use fairpath_fit::parallel;
 use std::f64::consts::TAU;
 
 /// The ground is looked at in steps of this length along a path, m.
@@ -82,14 +83,19 @@ fn looks(path: &Path, ground: &Heightfield, waters: &Waters) -> Looks {
         let z = ground.smooth_height(place);
         waters.level_at(place).map_or(z, |level| z.max(level + FREEBOARD_M))
     };
+    let segments = path.plan.segments();
+    let of_segment = |segment: &Segment| {
+        let count = (segment.length / STEP_M).round();
+        let look = |i: usize| {
+            let s = (i as f64 + 0.5) / count * segment.length;
+            (s, height(segment.point_at(s)), segment.length / count)
+        };
+        (0..count as usize).map(look).collect::<Vec<_>>()
+    };
     let mut own: Vec<([f64; 2], f64)> = Vec::new();
     let mut before = 0.0;
-    for segment in path.plan.segments() {
-        let count = (segment.length / STEP_M).round();
-        for i in 0..count as usize {
-            let s = (i as f64 + 0.5) / count * segment.length;
-            own.push(([before + s, height(segment.point_at(s))], segment.length / count));
-        }
+    for (segment, looks) in segments.iter().zip(parallel::map(segments, of_segment)) {
+        own.extend(looks.into_iter().map(|(s, z, spacing)| ([before + s, z], spacing)));
         before += segment.length;
     }
     if path.plan.is_closed() {
@@ -117,9 +123,10 @@ fn fair(path: &Path, points: &[[f64; 2]], spacings_m: &[f64]) -> Profile {
     let weights: Vec<f64> = spacings_m.iter().map(|s| if *s > 0.0 { s / STEP_M } else { END_WEIGHT }).collect();
     let longest = LONGEST_WAVE_M.max(WAVE_M_PER_KMH * path.section.speed_kmh);
     let mut waves = vec![WAVE_M_PER_KMH * path.section.speed_kmh; points.len() - 1];
+    let beam = Beam::new(points, &weights).expect(ASCENDING);
     loop {
         let stiffness: Vec<f64> = waves.iter().map(|wave| fourth_power(wave / TAU) / STEP_M).collect();
-        let profile = smoothed(points, &weights, &stiffness).expect(ASCENDING);
+        let profile = beam.bent(&stiffness).expect(ASCENDING);
         let mut is_longer = false;
         for (piece, wave) in waves.iter_mut().enumerate() {
             if *wave < longest && profile.steepness(piece) > path.section.max_grade {

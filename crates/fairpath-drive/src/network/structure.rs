@@ -5,6 +5,7 @@ use super::path::Path;
 use crate::course::Course;
 use crate::profile::Profile;
 use crate::terrain::{Heightfield, Waters};
+use fairpath_fit::parallel;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -84,14 +85,12 @@ pub(crate) fn structures<'a>(
     let step = length / count as f64;
     let station = |i: usize| length * i as f64 / count as f64;
     let course = Course::new(&path.plan);
-    let at: Vec<(f64, bool)> = (0..=count)
-        .map(|i| {
-            let place = course.point_at(station(i));
-            let z = ground.height(place);
-            let wet = waters.covers(place, z);
-            (profile.at(station(i)).height_m - z, wet)
-        })
-        .collect();
+    let stations: Vec<f64> = (0..=count).map(station).collect();
+    let at: Vec<(f64, bool)> = parallel::map(&stations, |station| {
+        let place = course.point_at(*station);
+        let z = ground.height(place);
+        (profile.at(*station).height_m - z, waters.covers(place, z))
+    });
     // A closed path is gone round twice, so that what leads over its seam is seen in one piece.
     let turns = if closed { 2 } else { 1 };
     let on = |i: usize| if i > count { at[i - count] } else { at[i] };

@@ -43,6 +43,15 @@ impl Samples {
         }
     }
 
+    /// One of them and the next, m.
+    #[inline]
+    fn pair(&self, i: usize) -> [f64; 2] {
+        match self {
+            Self::F32(samples) => [f64::from(samples[i]), f64::from(samples[i + 1])],
+            Self::F64(samples) => [samples[i], samples[i + 1]],
+        }
+    }
+
     /// Puts another height there, rounded to the precision of the samples.
     ///
     /// # Panics
@@ -242,9 +251,28 @@ impl Heightfield {
     /// the nearest place on it.
     #[must_use]
     pub fn height(&self, place: Point) -> f64 {
-        let ([column, row], [u, v]) = self.cell(place);
-        let [sw, se, nw, ne] = self.corners([column, row]);
+        let (cell, within) = self.cell(place);
+        self.height_within(cell, within)
+    }
+
+    /// The height in a cell, m, at shares of its sides from its south-western sample.
+    #[inline]
+    fn height_within(&self, cell: [usize; 2], [u, v]: [f64; 2]) -> f64 {
+        let [sw, se, nw, ne] = self.corners(cell);
         (sw * (1.0 - u) + se * u) * (1.0 - v) + (nw * (1.0 - u) + ne * u) * v
+    }
+
+    /// The [`height`](Self::height), m, of a sample of the grid that has `parts` samples, a power of two, for each one of this.
+    #[inline]
+    pub(crate) fn height_between(&self, [column, row]: [usize; 2], parts: usize) -> f64 {
+        let share = 1.0 / parts as f64;
+        let at = |sample: usize, count: usize| {
+            // As of a place: the last sample belongs to the cell before it.
+            let cell = (sample >> parts.trailing_zeros()).min(count - 2);
+            (cell, (sample - cell * parts) as f64 * share)
+        };
+        let ((column, u), (row, v)) = (at(column, self.columns), at(row, self.rows));
+        self.height_within([column, row], [u, v])
     }
 
     /// The slope of [`height`](Self::height) at a place: how much it rises for a metre towards east and north.
@@ -293,6 +321,7 @@ impl Heightfield {
     }
 
     /// The cell in which a place lies, by its south-western sample, and where in it, from 0 to 1.
+    #[inline]
     pub(super) fn cell(&self, place: Point) -> ([usize; 2], [f64; 2]) {
         let at = |x: f64, low: f64, spacing: f64, count: usize| {
             let t = ((x - low) / spacing).min((count - 1) as f64).max(0.0);
@@ -306,9 +335,11 @@ impl Heightfield {
     }
 
     /// Heights at the corners of a cell: south-west, south-east, north-west, north-east.
+    #[inline]
     pub(super) fn corners(&self, [column, row]: [usize; 2]) -> [f64; 4] {
-        let i = row * self.columns + column;
-        [i, i + 1, i + self.columns, i + self.columns + 1].map(|i| self.samples.get(i))
+        let (south, north) = (row * self.columns + column, (row + 1) * self.columns + column);
+        let [[sw, se], [nw, ne]] = [self.samples.pair(south), self.samples.pair(north)];
+        [sw, se, nw, ne]
     }
 }
 

@@ -2,6 +2,7 @@
 
 use crate::linear::{cholesky, solve, solve_lower};
 use crate::options::{Deviation, FitOptions};
+use crate::parallel;
 use crate::primitive_fit::{Normal, Walked, chord, circle_through, walk_arc, walk_line, walk_near};
 use crate::track::{Shape, Track};
 use crate::walk::{Datum, Primitive, Walker};
@@ -96,8 +97,9 @@ struct Family {
 pub(crate) fn candidates(track: &Track, options: &FitOptions) -> Vec<Candidate> {
     let starts = track.turn;
     let end = if track.shape == Shape::Ring { 2 * track.turn } else { track.turn };
-    let mut out = Vec::new();
-    for first in 0..starts {
+    let from = |first: &usize| {
+        let first = *first;
+        let mut out = Vec::new();
         let mut families: Vec<Family> = [
             (Kind::Line, options.line_cost, 2, 1),
             (Kind::Arc, options.arc_cost, 3, 2),
@@ -129,8 +131,10 @@ pub(crate) fn candidates(track: &Track, options: &FitOptions) -> Vec<Candidate> 
                 break;
             }
         }
-    }
-    out
+        out
+    };
+    let starts: Vec<usize> = (0..starts).collect();
+    parallel::map(&starts, from).into_iter().flatten().collect()
 }
 
 /// Long runs are fitted only in every second and fourth length: where exactly a long primitive ends matters less. The rule knows only

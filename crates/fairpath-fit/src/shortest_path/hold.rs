@@ -54,7 +54,7 @@ pub(super) fn give_freedom(chain: &mut Chain) {
 }
 
 /// Freedoms beyond those that the ends take away, so that the curve can still follow its data.
-const SPARE: usize = 2;
+const SPARE: usize = 4;
 
 /// Numbers that a merge can choose for the pieces of a chain, its start aside.
 fn freedom(chain: &Chain) -> usize {

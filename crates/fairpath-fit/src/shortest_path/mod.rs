@@ -20,6 +20,7 @@ use crate::clean::{Cleaned, clean};
 use crate::conclude::{Parts, closing_warnings, describe, polyline, restored, restored_spline};
 use crate::direction::{is_backward, turn_stages_round, turned_round};
 use crate::options::{ClosedSearch, FitOptions};
+use crate::parallel;
 use crate::result::{self, Fit, FitError, Observer, Report, Stages, Step, Warning};
 use crate::stroke::Stroke;
 use crate::track::{Course, Shape, Track, prepare};
@@ -159,7 +160,7 @@ fn attempt(
     stages: Option<&mut Stages>,
 ) -> Option<Parts> {
     observer.step(Step::Candidates);
-    let candidates = candidates::candidates(track, options);
+    let candidates = parallel::within(|| candidates::candidates(track, options));
     observer.step(Step::Graph);
     let mut graph = Graph::new(&candidates, track, options);
     let exact_ring = track.shape == Shape::Ring && options.closed_search == ClosedSearch::Exact;
@@ -172,9 +173,9 @@ fn attempt(
     let is_held = track.held.iter().any(Option::is_some);
     for _ in 0..if exact_ring || is_held { SURPRISED_ROUNDS } else { 1 } {
         observer.step(Step::Search);
-        let Some(path) = search::search(&mut graph, &mut verifier, below) else { break };
+        let Some(path) = parallel::within(|| search::search(&mut graph, &mut verifier, below)) else { break };
         observer.step(Step::Merge);
-        let merged = merge_path(&graph, &path, track, options);
+        let merged = parallel::within(|| merge_path(&graph, &path, track, options));
         let cost = cost_of(&merged);
         // Joins are verified two pieces at a time. What that misses in a ring of few pieces, or in a few between held ends, shows in the
         // whole: then its joins bear what it costs more, and another path may be better.

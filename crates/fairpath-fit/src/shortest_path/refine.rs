@@ -10,6 +10,7 @@ use super::hold::halves;
 use super::merge::{Effort, Verdict, is_hopeful, merge, merge_until};
 use super::transition::possible;
 use crate::options::FitOptions;
+use crate::parallel;
 use crate::primitive_fit::{refine as fit_freely, walk_line};
 use crate::walk::Primitive;
 use fairpath_curve::{Continuity, Kind, Vec2};
@@ -26,6 +27,9 @@ const WORTHWHILE: f64 = 0.5;
 
 /// What a change must gain if the joins cost nothing before it is tried.
 const PROMISING: f64 = 7.0;
+
+/// Pieces that are looked at together: as many as there are often threads.
+const AHEAD: usize = 4;
 
 /// Most passes over the chain.
 const PASSES: usize = 2;
@@ -86,16 +90,21 @@ fn pass(chain: &mut Chain, measured: &mut Measured, fresh: &mut Vec<bool>, optio
     let mut next = vec![false; fresh.len()];
     let mut changed = false;
     let mut k = 0;
-    while k < chain.pieces.len() {
-        let look = fresh[k] || fresh.get(k + 1).is_some_and(|f| *f);
-        match if look { improve_at(chain, measured, k, options) } else { None } {
-            Some((window, count)) => {
-                changed = true;
-                fresh.splice(window.clone(), vec![true; count]);
-                next.splice(window, vec![true; count]);
-            }
-            None => k += 1,
-        }
+    loop {
+        // While nothing is changed it makes no difference in which order pieces are looked at.
+        let look = |k: &usize| fresh[*k] || fresh.get(k + 1).is_some_and(|f| *f);
+        let ahead: Vec<usize> = (k..chain.pieces.len()).filter(look).take(AHEAD).collect();
+        let Some(last) = ahead.last() else { break };
+        let improved = parallel::find_map(&ahead, |k| Some((*k, improvement(chain, measured, *k, options)?)));
+        let Some((at, trial)) = improved else {
+            k = last + 1;
+            continue;
+        };
+        let (window, count) = put_in(chain, measured, trial);
+        changed = true;
+        fresh.splice(window.clone(), vec![true; count]);
+        next.splice(window, vec![true; count]);
+        k = at;
     }
     *fresh = next;
     changed
@@ -110,16 +119,11 @@ pub(crate) struct Change {
     pub(crate) promise: f64,
 }
 
-/// Makes the first change at a piece that gains; the pieces that it replaced, and by how many.
-fn improve_at(
-    chain: &mut Chain,
-    measured: &mut Measured,
-    k: usize,
-    options: &FitOptions,
-) -> Option<(Range<usize>, usize)> {
+/// What comes of the first change at a piece that gains.
+fn improvement(chain: &Chain, measured: &Measured, k: usize, options: &FitOptions) -> Option<Trial> {
     let mut changes = changes(chain, measured, k, options);
     changes.sort_by(|a, b| b.promise.total_cmp(&a.promise));
-    changes.iter().find_map(|change| made(chain, measured, change, options))
+    changes.iter().find_map(|change| gaining(chain, measured, change, options))
 }
 
 /// Makes a change if it gains; the pieces that it replaced with its neighbours, and by how many.
@@ -129,19 +133,27 @@ pub(crate) fn made(
     change: &Change,
     options: &FitOptions,
 ) -> Option<(Range<usize>, usize)> {
+    let trial = gaining(chain, measured, change, options)?;
+    Some(put_in(chain, measured, trial))
+}
+
+/// What comes of a change, if it gains.
+fn gaining(chain: &Chain, measured: &Measured, change: &Change, options: &FitOptions) -> Option<Trial> {
     if !fits(chain, change) {
         return None;
     }
     let (gain, trial) = tried(chain, measured, change, options)?;
-    if !(gain > WORTHWHILE) {
-        return None;
-    }
+    (gain > WORTHWHILE).then_some(trial)
+}
+
+/// Puts what came of a change into the chain; the pieces that it replaced, and by how many.
+fn put_in(chain: &mut Chain, measured: &mut Measured, trial: Trial) -> (Range<usize>, usize) {
     let Trial { window, pieces, joins, normals } = trial;
     let count = pieces.len();
     chain.pieces.splice(window.clone(), pieces);
     chain.joins.splice(window.start..window.end - 1, joins);
     measured.normals.splice(window.clone(), normals);
-    Some((window, count))
+    (window, count)
 }
 
 /// The changes at a piece that might pay, judged by free fits.

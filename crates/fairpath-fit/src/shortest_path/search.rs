@@ -11,6 +11,7 @@ use super::hold::Hold;
 use super::merge::{Effort, Verdict, merge_until};
 use super::transition::overlap;
 use crate::options::{ClosedSearch, FitOptions, Search};
+use crate::parallel;
 use crate::track::{Course, Shape, Track};
 use fairpath_curve::{Continuity, Kind};
 
@@ -128,13 +129,12 @@ impl<'a> Verifier<'a> {
     /// Verifies the joins of a path; the nodes whose onward joins got dearer.
     pub(super) fn reprice(&mut self, graph: &mut Graph, path: &Path) -> Vec<u32> {
         let mut dearer = self.avoid_pinching(graph, path);
-        for edge in path.edges() {
-            // Two curves that end at a corner meet near it whatever they are: there is nothing to enforce.
-            if graph.is_verified(edge) || graph.at_corner(edge) {
-                continue;
-            }
-            self.verifications += 1;
-            let deviation = verify(graph, edge, self.track, self.options);
+        // Two curves that end at a corner meet near it whatever they are: there is nothing to enforce.
+        let open: Vec<Edge> = path.edges().filter(|e| !graph.is_verified(*e) && !graph.at_corner(*e)).collect();
+        self.verifications += open.len();
+        let known: &Graph = graph;
+        let deviations = parallel::map(&open, |edge| verify(known, *edge, self.track, self.options));
+        for (edge, deviation) in open.into_iter().zip(deviations) {
             if graph.learn(edge, deviation) {
                 dearer.push(edge.from);
             }
