@@ -302,10 +302,7 @@ impl Turned {
                 sum += kink(&segments[i - 1], segment);
             }
             let start = sum;
-            let (k0, k1) = (segment.kappa0, segment.kappa1);
-            // An inflection divides it in the ratio of its curvatures.
-            let mean = if k0 * k1 < 0.0 { 0.5 * (k0 * k0 + k1 * k1) / (k0 - k1).abs() } else { 0.5 * (k0 + k1).abs() };
-            sum += mean * segment.length;
+            sum += segment.absolute_turning();
             at.push([start, sum]);
         }
         let around = spline.is_closed().then(|| sum + kink(&segments[segments.len() - 1], &segments[0]));

@@ -1,7 +1,7 @@
 //! Intersections against dense polylines, and the degenerate meetings that must end.
 
 use crate::common::{segment, spline};
-use fairpath_curve::{Contact, Continuity, Point, Segment, Spline, Vec2};
+use fairpath_curve::{Contact, Continuity, Point, Segment, Spline, SplineIntersection, Vec2};
 use proptest::prelude::*;
 
 /// Arc lengths on both where two fine polylines cross.
@@ -67,6 +67,23 @@ proptest! {
             prop_assert_eq!(found.len(), 1, "{:?}", &found);
             prop_assert_eq!(found[0].contact, Contact::Overlap);
             prop_assert!((found[0].extent - part.length).abs() <= 0.1 * s.length, "{}", found[0].extent);
+        }
+    }
+
+    #[test]
+    fn where_two_segments_cross_the_spline_meets_itself(s in spline()) {
+        let found = s.self_intersections();
+        for (i, a) in s.segments().iter().enumerate() {
+            for (j, b) in s.segments().iter().enumerate().skip(i + 1) {
+                for p in a.intersections(b).into_iter().filter(|p| p.contact == Contact::Crossing) {
+                    let apart = s.station(j, p.t) - s.station(i, p.s);
+                    let apart = if s.is_closed() { apart.min(s.length() - apart) } else { apart };
+                    if apart > 1e-6 * s.length() {
+                        let same = |f: &SplineIntersection| (f.point - p.point).hypot() < 1e-6 * s.length();
+                        prop_assert!(found.iter().any(same), "{i} {j} {p:?}");
+                    }
+                }
+            }
         }
     }
 
