@@ -116,7 +116,7 @@ pub(crate) fn candidates(track: &Track, options: &FitOptions) -> Vec<Candidate> 
         let mut before = first;
         for last in first + 1..=stop {
             let span = last - first;
-            if span % stride(span) != 0 && !begins_here && last != stop {
+            if !span.is_multiple_of(stride(span)) && !begins_here && last != stop {
                 continue;
             }
             let data = track.coarse.run(first, last);

@@ -40,22 +40,21 @@ pub(super) fn expected(hold: Option<&Hold>, c: &Candidate, side: usize, options:
 }
 
 /// Splits pieces of a chain that is held at both ends until it can meet both: each end that is held takes away up to four freedoms, and
-/// few pieces have no more. What is split needlessly, refinement unites again. `spare` are freedoms beyond those that the ends take away, so that the curve can still follow its data.
-pub(super) fn give_freedom(chain: &mut Chain, spare: usize) {
+/// few pieces have no more. What is split needlessly, refinement unites again.
+pub(super) fn give_freedom(chain: &mut Chain) {
     let [Some(start), Some(last)] = chain.held else { return };
     if chain.joins.contains(&Continuity::G0) {
         return;
     }
-    while freedom(chain) + 4 - start.count < last.count + spare {
+    while freedom(chain) + 4 - start.count < last.count + SPARE {
         let length = |k: &usize| chain.pieces[*k].q[LENGTH];
         let Some(longest) = (0..chain.pieces.len()).max_by(|a, b| length(a).total_cmp(&length(b))) else { return };
         split(chain, longest);
     }
 }
 
-/// Freedoms to spare at first, and where that turns out too stiff.
-pub(super) const SPARE: usize = 2;
-pub(super) const MORE: usize = 4;
+/// Freedoms beyond those that the ends take away, so that the curve can still follow its data.
+const SPARE: usize = 2;
 
 /// Numbers that a merge can choose for the pieces of a chain, its start aside.
 fn freedom(chain: &Chain) -> usize {

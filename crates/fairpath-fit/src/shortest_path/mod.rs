@@ -246,22 +246,16 @@ fn merge_path(graph: &Graph, path: &Path, track: &Track, options: &FitOptions) -
     }
     let whole = Some((track.shape, track.turn));
     let held = track.held.map(|hold| hold.map(|h| h.pin));
-    let is_bound = held.iter().all(Option::is_some);
     let along = |course, joins| -> Chain {
         let mut chain = search::chain(graph.candidates, &nodes, joins, whole, course, held, options);
-        hold::give_freedom(&mut chain, hold::SPARE);
+        hold::give_freedom(&mut chain);
         chain
     };
     let mut chain = along(&track.all, joins.clone());
     if options.refine {
         // Chosen by the coarse points, fitted to all.
         let mut coarse = along(&track.coarse, joins);
-        let mut measured = merge(&mut coarse, FINAL)?;
-        // Refinement would split pieces one by one where the chain is too stiff.
-        if is_bound && refine::total(&coarse, &measured, options) > SURPRISE * path.cost {
-            hold::give_freedom(&mut coarse, hold::MORE);
-            measured = merge(&mut coarse, FINAL)?;
-        }
+        let measured = merge(&mut coarse, FINAL)?;
         let measured = refine::refine(&mut coarse, measured, options, FINAL)?;
         let before = refine::total(&coarse, &measured, options);
         let smooth = track.shape == Shape::Ring && !coarse.joins.contains(&Continuity::G0);
