@@ -42,7 +42,7 @@ const WORST: usize = 8;
 
 /// The evaluator's part of the test command alone, for files whose names begin with one of `names`, or for all.
 pub(crate) fn run(names: &[String]) -> Result<()> {
-    process::run(&mut process::cargo(&["build", "--release", "--package", "fairpath"]))?;
+    process::build(&["fairpath"])?;
     let mut steps = Steps::default();
     add_steps(&mut steps, names);
     if names.is_empty() {

@@ -49,9 +49,7 @@ pub(crate) fn step() -> Result<Outcome> {
         Err(error) if tree::on_build_server() => return Err(error),
         Err(error) => return Ok(Outcome::Skipped(format!("{error:#}"))),
     };
-    // An example and the whole workspace, so that libraries have the features that the tests gave them, or half of them would be built once more.
-    let build = ["build", "--quiet", "--workspace", "--bin", "fairpath-app", "--example", "pace"];
-    process::run(&mut process::cargo(&build))?;
+    process::build(&["fairpath-app"])?;
     let exe = tree::target_folder()?.join("debug/fairpath-app");
     let out = tree::scratch("judge-window")?;
     for old in fs::read_dir(&out)? {

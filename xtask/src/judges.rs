@@ -14,9 +14,9 @@ use crate::{process, tools, tree};
 pub(crate) fn kernel() -> Result<Outcome> {
     let cases = tree::scratch("judges")?.join("kernel-cases.txt");
     let file = File::create(&cases).with_context(|| format!("cannot write {}", cases.display()))?;
-    let mut example =
-        process::cargo(&["run", "--quiet", "--release", "--package", "fairpath-curve", "--example", "kernel_cases"]);
-    process::run(example.stdout(file))?;
+    process::run(&mut process::cargo(&["build", "--quiet", "--workspace", "--example", "kernel_cases"]))?;
+    let example = tree::fairpath()?.with_file_name("examples/kernel_cases");
+    process::run(Command::new(example).stdout(file))?;
     let mut judge = Command::new(tools::python()?);
     judge.arg(tree::root().join("tools/judge_kernel.py")).stdin(Stdio::from(File::open(&cases)?));
     process::run(&mut judge)?;

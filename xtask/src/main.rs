@@ -140,9 +140,9 @@ enum Chore {
 }
 
 impl Chore {
-    /// Whether it times the library within this very process.
+    /// Whether it times fits.
     fn is_timing(&self) -> bool {
-        matches!(self, Self::Bench { .. } | Self::Growth { .. } | Self::Table1 { .. })
+        matches!(self, Self::Evaluate { .. } | Self::Bench { .. } | Self::Growth { .. } | Self::Table1 { .. })
     }
 }
 

@@ -51,7 +51,7 @@ fn application() -> Result<()> {
 
 /// Writes `docs/comparison.png`: every method on one of the synthetic strokes.
 fn comparison() -> Result<()> {
-    process::run(&mut process::cargo(&["build", "--release", "--package", "fairpath"]))?;
+    process::build(&["fairpath"])?;
     let browser = tools::chromium()?;
     let page = tree::scratch("pictures")?.join("comparison.html");
     let mut compare = Command::new(tree::fairpath()?);

@@ -22,6 +22,19 @@ pub(crate) fn cargo(args: &[&str]) -> Command {
     command
 }
 
+/// Builds programs of the project in the profile of this one: the tests' own build, or, for chores that time fits in, the users'.
+pub(crate) fn build(programs: &[&str]) -> Result<()> {
+    // An example and the whole workspace, so that libraries have the features that the tests gave them, or half of them would be built once more.
+    let mut build = cargo(&["build", "--quiet", "--workspace", "--example", "pace"]);
+    if cfg!(not(debug_assertions)) {
+        build = cargo(&["build", "--quiet", "--release"]);
+    }
+    for program in programs {
+        build.args(["--bin", program]);
+    }
+    run(&mut build)
+}
+
 /// Runs to the end; anything but success is an error.
 pub(crate) fn run(command: &mut Command) -> Result<()> {
     let status = command.status().with_context(|| format!("cannot start {}", shown(command)))?;

@@ -37,9 +37,10 @@ pub(crate) fn scratch(name: &str) -> Result<PathBuf> {
     folder.canonicalize().with_context(|| format!("cannot find {}", folder.display()))
 }
 
-/// The release build of the command line, which must have been built before.
+/// The command line of the same profile as this program, by which it lies; it must have been built before.
 pub(crate) fn fairpath() -> Result<PathBuf> {
-    Ok(target_folder()?.join("release").join(format!("fairpath{}", env::consts::EXE_SUFFIX)))
+    let exe = env::current_exe().context("cannot tell where this program is")?;
+    Ok(exe.with_file_name(format!("fairpath{}", env::consts::EXE_SUFFIX)))
 }
 
 /// The folder of all builds, wherever cargo was told to put it: this program lies in the folder of its profile.

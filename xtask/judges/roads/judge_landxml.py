@@ -137,8 +137,19 @@ def judge_profile(where, design):
         free_from = station + half
 
 
+def read_alignments(file):
+    """The alignments of a file, without holding in memory the surfaces, which are most of it."""
+    alignments = []
+    for _, element in ElementTree.iterparse(file):
+        if local(element) == "Alignment":
+            alignments.append(element)
+        elif local(element) in ("P", "F"):
+            element.clear()
+    return alignments
+
+
 def judge(file):
-    alignments = [element for element in ElementTree.parse(file).getroot().iter() if local(element) == "Alignment"]
+    alignments = read_alignments(file)
     if not alignments:
         raise ValueError("no alignment in it")
     results = [judge_alignment(alignment) for alignment in alignments]

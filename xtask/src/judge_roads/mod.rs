@@ -6,6 +6,7 @@ mod outlines;
 mod self_test;
 mod verdict;
 
+use std::cmp::Reverse;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -31,19 +32,18 @@ struct Judge {
     ask: fn(&Path, &Path) -> Result<Verdict>,
 }
 
-/// All of them, in the order in which they are asked.
+/// All of them, the slowest first: they are asked in this order, so that in the end none is waited for long.
 const JUDGES: [Judge; 10] = [
-    // First, since it takes as long as the others together.
-    Judge { name: "asam", extension: "xodr", ask: opendrive::asam },
-    Judge { name: "plan", extension: "xodr", ask: opendrive::plan },
     Judge { name: "maliput", extension: "xodr", ask: opendrive::maliput },
+    Judge { name: "asam", extension: "xodr", ask: opendrive::asam },
+    Judge { name: "gltf", extension: "glb", ask: outlines::gltf },
+    Judge { name: "alignments", extension: "xml", ask: outlines::alignments },
+    Judge { name: "plan", extension: "xodr", ask: opendrive::plan },
     Judge { name: "sumo", extension: "xodr", ask: opendrive::sumo },
     Judge { name: "carla", extension: "xodr", ask: opendrive::carla },
-    Judge { name: "alignments", extension: "xml", ask: outlines::alignments },
-    Judge { name: "xmllint", extension: "xml", ask: outlines::xmllint },
     Judge { name: "check-geojson", extension: "geojson", ask: outlines::check_geojson },
+    Judge { name: "xmllint", extension: "xml", ask: outlines::xmllint },
     Judge { name: "ogrinfo", extension: "geojson", ask: outlines::ogrinfo },
-    Judge { name: "gltf", extension: "glb", ask: outlines::gltf },
 ];
 
 /// What the program writes of its example networks, judged; the judges themselves first.
@@ -125,23 +125,24 @@ pub(crate) fn judge(files: &[PathBuf]) -> Result<Outcome> {
         Err(error) if tree::on_build_server() => return Err(error),
         Err(error) => return Ok(Outcome::Skipped(format!("{error:#}"))),
     }
-    let scratch = tree::scratch("judge-roads")?;
     let (mut times, mut refused, mut warnings) = (Times::default(), Vec::new(), 0);
+    let mut cases = Vec::new();
     for file in files {
-        for (judge, verdict) in times.ask(&judges_of(file)?, file, &scratch)? {
-            match verdict {
-                Ok(verdict) => {
-                    show(judge, file, &verdict);
-                    warnings += verdict.warnings.len();
-                    if !verdict.faults.is_empty() {
-                        refused.push(format!("{} by {}", file.display(), judge.name));
-                    }
+        cases.extend(judges_of(file)?.into_iter().map(|judge| Case { judge, file }));
+    }
+    for (Case { judge, file }, verdict) in times.ask(&cases)? {
+        match verdict {
+            Ok(verdict) => {
+                show(judge, file, &verdict);
+                warnings += verdict.warnings.len();
+                if !verdict.faults.is_empty() {
+                    refused.push(format!("{} by {}", file.display(), judge.name));
                 }
-                // A judge that a file kills has not passed it, and the others are still to be heard.
-                Err(error) => {
-                    println!("BROKEN  {:<14} {}: {error:#}", judge.name, file.display());
-                    refused.push(format!("{} by {}, which broke", file.display(), judge.name));
-                }
+            }
+            // A judge that a file kills has not passed it, and the others are still to be heard.
+            Err(error) => {
+                println!("BROKEN  {:<14} {}: {error:#}", judge.name, file.display());
+                refused.push(format!("{} by {}, which broke", file.display(), judge.name));
             }
         }
     }
@@ -199,43 +200,56 @@ fn show(judge: &Judge, file: &Path, verdict: &Verdict) {
     }
 }
 
+/// A judge and a file for it.
+#[derive(Clone, Copy)]
+struct Case<'a> {
+    judge: &'static Judge,
+    file: &'a Path,
+}
+
 /// How often each judge was asked, and how long it took.
 #[derive(Default)]
 struct Times(BTreeMap<&'static str, (usize, Duration)>);
 
 impl Times {
-    /// Asks some judges about one file, two at a time: their verdicts in the same order.
-    fn ask<'a>(
-        &mut self,
-        judges: &[&'a Judge],
-        file: &Path,
-        scratch: &Path,
-    ) -> Result<Vec<(&'a Judge, Result<Verdict>)>> {
+    /// Hears all cases, two at a time, slow judges and large files first: the verdicts in the order of the cases.
+    fn ask<'a>(&mut self, cases: &[Case<'a>]) -> Result<Vec<(Case<'a>, Result<Verdict>)>> {
         // Some judges run in other folders.
-        let file = file.canonicalize().with_context(|| format!("there is no file {}", file.display()))?;
-        let next = AtomicUsize::new(0);
-        let work = || {
-            let mut said = Vec::new();
-            while let Some(judge) = judges.get(next.fetch_add(1, Ordering::Relaxed)) {
-                let begun = Instant::now();
-                let verdict = (judge.ask)(&file, scratch);
-                said.push((*judge, verdict, begun.elapsed()));
-            }
-            said
+        let places: Vec<PathBuf> = cases
+            .iter()
+            .map(|case| case.file.canonicalize().with_context(|| format!("there is no file {}", case.file.display())))
+            .collect::<Result<_>>()?;
+        let slowness = |case: &usize| {
+            let rank = JUDGES.iter().position(|judge| judge.name == cases[*case].judge.name);
+            (rank, Reverse(places[*case].metadata().map_or(0, |data| data.len())))
         };
-        let mut said = thread::scope(|scope| {
-            let second = scope.spawn(work);
-            let mut said = work();
-            said.extend(second.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)));
-            said
+        let mut order: Vec<usize> = (0..cases.len()).collect();
+        order.sort_by_key(slowness);
+        let next = AtomicUsize::new(0);
+        // Each has its own folder, since a judge that is asked about two files at once writes twice under one name.
+        let work = |folder: PathBuf| {
+            let mut heard = Vec::new();
+            while let Some(&case) = order.get(next.fetch_add(1, Ordering::Relaxed)) {
+                let begun = Instant::now();
+                let verdict = (cases[case].judge.ask)(&places[case], &folder);
+                heard.push((case, verdict, begun.elapsed()));
+            }
+            heard
+        };
+        let (first, second) = (tree::scratch("judge-roads/first")?, tree::scratch("judge-roads/second")?);
+        let mut heard = thread::scope(|scope| {
+            let second = scope.spawn(|| work(second));
+            let mut heard = work(first);
+            heard.extend(second.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)));
+            heard
         });
-        said.sort_by_key(|(judge, ..)| judges.iter().position(|asked| asked.name == judge.name));
-        for (judge, _, time) in &said {
-            let (count, total) = self.0.entry(judge.name).or_default();
+        heard.sort_by_key(|(case, ..)| *case);
+        for (case, _, time) in &heard {
+            let (count, total) = self.0.entry(cases[*case].judge.name).or_default();
             *count += 1;
             *total += *time;
         }
-        Ok(said.into_iter().map(|(judge, verdict, _)| (judge, verdict)).collect())
+        Ok(heard.into_iter().map(|(case, verdict, _)| (cases[case], verdict)).collect())
     }
 
     fn asked(&self) -> usize {

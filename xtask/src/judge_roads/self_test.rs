@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result, bail, ensure};
 
 use super::verdict::Verdict;
-use super::{Judge, Times, judges_of};
+use super::{Case, Judge, Times, judges_of};
 use crate::steps::Outcome;
 use crate::tree;
 
@@ -27,6 +27,23 @@ struct Damage {
     seen_by: &'static [&'static str],
     /// The damaged file; none where it has not what is to be damaged.
     make: fn(&str) -> Option<String>,
+}
+
+impl Damage {
+    /// Writes the damaged file into a folder of its own, since its name may tell a judge what it is.
+    fn done_to(&self, good: &Path, folder: &Path) -> Result<PathBuf> {
+        let bytes = fs::read(good).with_context(|| format!("cannot read {}", good.display()))?;
+        // Latin-1 keeps every byte of what is no text.
+        let text: String = bytes.iter().map(|&byte| char::from(byte)).collect();
+        let damaged = (self.make)(&text).filter(|damaged| *damaged != text);
+        let damaged = damaged.with_context(|| format!("{} has nothing for the damage: {}", self.file, self.what))?;
+        let bytes = damaged.chars().map(|letter| u8::try_from(u32::from(letter))).collect::<Result<Vec<u8>, _>>()?;
+        let name = good.file_name().context("a good file has a name")?.to_string_lossy();
+        fs::create_dir_all(folder).with_context(|| format!("cannot make {}", folder.display()))?;
+        let file = folder.join(format!("damaged-{name}"));
+        fs::write(&file, bytes).with_context(|| format!("cannot write {}", file.display()))?;
+        Ok(file)
+    }
 }
 
 const EVERY_READER: &[&str] = &["plan", "asam", "maliput", "sumo", "carla"];
@@ -158,16 +175,33 @@ pub(super) fn run() -> Result<Outcome> {
         own.push(file);
     }
     let shared = shared_files()?;
+    let mut cases = Vec::new();
     for file in own.iter().chain(&shared) {
-        for (judge, verdict) in times.ask(&judges_of(file)?, file, &scratch)? {
-            complaints.extend(complaint_on_good(judge, file, &verdict?));
-        }
+        cases.extend(judges_of(file)?.into_iter().map(|judge| Case { judge, file }));
     }
+    for (case, verdict) in times.ask(&cases)? {
+        complaints.extend(complaint_on_good(case.judge, case.file, &verdict?));
+    }
+    let mut damaged = Vec::new();
     for damage in &DAMAGES {
         match own.iter().chain(&shared).find(|file| file.ends_with(damage.file)) {
-            Some(good) => complaints.extend(complaints_on_damaged(&mut times, damage, good, &scratch)?),
+            Some(good) => damaged.push((damage, damage.done_to(good, &scratch.join(damaged.len().to_string()))?)),
             None if shared.is_empty() && damage.file.contains('/') => println!("skipped: damage of {}", damage.file),
             None => bail!("there is no {} to damage", damage.file),
+        }
+    }
+    let (mut cases, mut damages_of) = (Vec::new(), Vec::new());
+    for (damage, file) in &damaged {
+        let mut judges = judges_of(file)?;
+        judges.retain(|judge| damage.seen_by.contains(&judge.name));
+        ensure!(judges.len() == damage.seen_by.len(), "not every judge of {:?} reads {}", damage.seen_by, damage.file);
+        damages_of.extend(judges.iter().map(|_| *damage));
+        cases.extend(judges.into_iter().map(|judge| Case { judge, file }));
+    }
+    for (damage, (Case { judge, .. }, verdict)) in damages_of.iter().zip(times.ask(&cases)?) {
+        match verdict?.faults.first() {
+            Some(fault) => println!("damaged {}, {}: {} sees it: {fault}", damage.file, damage.what, judge.name),
+            None => complaints.push(format!("{} does not see in {}: {}", judge.name, damage.file, damage.what)),
         }
     }
     times.show();
@@ -190,30 +224,6 @@ fn complaint_on_good(judge: &Judge, file: &Path, verdict: &Verdict) -> Option<St
         (true, true) => Some(format!("{} no longer refuses {}: say so in the self-test", judge.name, file.display())),
         _ => None,
     }
-}
-
-/// Who did not see a damage.
-fn complaints_on_damaged(times: &mut Times, damage: &Damage, good: &Path, scratch: &Path) -> Result<Vec<String>> {
-    let bytes = fs::read(good).with_context(|| format!("cannot read {}", good.display()))?;
-    // Latin-1 keeps every byte of what is no text.
-    let text: String = bytes.iter().map(|&byte| char::from(byte)).collect();
-    let damaged = (damage.make)(&text).filter(|damaged| *damaged != text);
-    let damaged = damaged.with_context(|| format!("{} has nothing for the damage: {}", damage.file, damage.what))?;
-    let bytes = damaged.chars().map(|letter| u8::try_from(u32::from(letter))).collect::<Result<Vec<u8>, _>>()?;
-    let name = good.file_name().context("a good file has a name")?.to_string_lossy();
-    let file = scratch.join(format!("damaged-{name}"));
-    fs::write(&file, bytes).with_context(|| format!("cannot write {}", file.display()))?;
-    let mut judges = judges_of(&file)?;
-    judges.retain(|judge| damage.seen_by.contains(&judge.name));
-    ensure!(judges.len() == damage.seen_by.len(), "not every judge of {:?} reads {}", damage.seen_by, damage.file);
-    let mut complaints = Vec::new();
-    for (judge, verdict) in times.ask(&judges, &file, scratch)? {
-        match verdict?.faults.first() {
-            Some(fault) => println!("damaged {}, {}: {} sees it: {fault}", damage.file, damage.what, judge.name),
-            None => complaints.push(format!("{} does not see in {}: {}", judge.name, damage.file, damage.what)),
-        }
-    }
-    Ok(complaints)
 }
 
 /// The files of roads in the shared data folder, which must be there on the build server.

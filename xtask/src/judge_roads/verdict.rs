@@ -7,7 +7,7 @@ use anyhow::{Context, Result, bail};
 use crate::process::Ran;
 
 /// After so long a judge is given up.
-pub(super) const PATIENCE: Duration = Duration::from_secs(300);
+pub(super) const PATIENCE: Duration = Duration::from_secs(900);
 
 /// What a judge says of one file; it passes what it finds no fault with.
 #[derive(Debug, Default, PartialEq)]
