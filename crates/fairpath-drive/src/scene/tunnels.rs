@@ -1,15 +1,16 @@
 //! Tunnels: lining, portals and lamps. The ground above stays whole.
 
 use super::roads::{beside, sections_within};
-use super::shape::{P3, band, cuboid, quad};
+use super::shape::{P3, band, cuboid, quad, triangle};
 use super::{Finish, Instances, Placement, Scene, part};
 use crate::document::{PathResult, Results};
 use crate::ground::CrossSection;
-use crate::network::Carrier;
-use crate::section::Material;
+use crate::network::{Carrier, Junction};
+use crate::section::{Material, Section};
 use crate::terrain::Heightfield;
 use fairpath_curve::{Point, Vec2, trig};
 use fairpath_shape::Mesh;
+use std::sync::Arc;
 
 /// Sides of the vault.
 const VAULT: usize = 10;
@@ -17,14 +18,19 @@ const VAULT: usize = 10;
 /// From the edge of what is laid to the wall, m.
 const WALL_M: f64 = 0.8;
 
-/// Width of the portal's face beside the opening and above it, m.
-const FACE_M: f64 = 2.5;
+/// The portal's face reaches so far beside the opening, above it at least, and below the surface, m.
+const BESIDE_M: f64 = 2.5;
+const ABOVE_M: f64 = 1.0;
+const FOOT_M: f64 = 1.0;
 
 /// A tunnel's portal stands this far in front of where the ground closes over it, m.
 const PORTAL_M: f64 = 4.0;
 
-/// A flat vault is so much higher in the middle than the clearance, m.
+/// The flattest vault is so much higher in the middle than the clearance, m.
 const FLAT_M: f64 = 0.25;
+
+/// So much ground lies over a vault at least, m.
+const COVER_M: f64 = 0.6;
 
 /// From lamp to lamp, m.
 const LAMP_M: f64 = 12.0;
@@ -42,21 +48,31 @@ pub(super) fn add(scene: &mut Scene, path: &PathResult, results: &Results) {
         if run.len() < 2 {
             continue;
         }
+        let opening = Opening::of(section);
         // What passes above needs the place that a round vault would take.
         let lower = results.crossings.iter().filter_map(|c| Some(c.upper_lower()?[1]));
         let is_below =
             lower.into_iter().any(|p| p.path == path.path.id && (tunnel.from_m..=tunnel.to_m).contains(&p.station_m));
-        let outline = opening(section.half_widths_m(), section.clearance_m, is_below);
+        let closed = sections_within(&path.sections, [tunnel.from_m, tunnel.to_m]);
+        let rise = if is_below { 0.0 } else { opening.covered_rise_m(&closed, results.ground.natural()) };
+        let outline = opening.outline(rise);
         let line = |[left, up]: [f64; 2]| -> Vec<P3> { run.iter().map(|s| beside(s, left, up)).collect() };
         // Seen from inside: from the right foot over the top to the left foot.
         for pair in outline.windows(2) {
             band(&mut mesh, &line(pair[0]), &line(pair[1]));
         }
-        // At its end in the open the portal reaches up to the ground behind it, and a lid leads over to that.
-        for (at_start, section) in [(true, run[0]), (false, run[run.len() - 1])] {
-            let inside = if at_start { tunnel.from_m + step } else { tunnel.to_m - step };
-            let behind = sections_within(&path.sections, [inside, inside]).first().copied();
-            portal(&mut mesh, &section, behind.as_ref(), &outline, results.ground.natural());
+        for (sign, section) in [(1.0, run[0]), (-1.0, run[run.len() - 1])] {
+            let station = if sign > 0.0 { tunnel.from_m } else { tunnel.to_m };
+            match end_of(path, station, &results.junctions) {
+                End::Portal => {
+                    // It reaches up to the ground behind it, and a lid leads over to that.
+                    let inside = station + sign * step;
+                    let behind = sections_within(&path.sections, [inside, inside]).first().copied();
+                    portal(&mut mesh, &section, behind.as_ref(), &outline, results.ground.natural());
+                }
+                End::Wall => wall(&mut mesh, &section, &outline),
+                End::None => {}
+            }
         }
         let top = outline.iter().map(|p| p[1]).fold(0.0, f64::max);
         let count = ((tunnel.to_m - tunnel.from_m) / LAMP_M).floor().max(1.0) as usize;
@@ -77,24 +93,89 @@ pub(super) fn add(scene: &mut Scene, path: &PathResult, results: &Results) {
     scene.instances.push(Instances { name: format!("lamps of {}", path.path.name), at: lamps, parts: vec![lamp] });
 }
 
-/// The outline of the opening, left of the middle and above the surface, from the right foot to the left one: upright walls and above the clearance a round vault, or a flat one.
-fn opening([left, right]: [f64; 2], clearance_m: f64, is_flat: bool) -> Vec<[f64; 2]> {
-    let (left, right) = (left + WALL_M, right + WALL_M);
-    let (middle, radius) = (0.5 * (left - right), 0.5 * (left + right));
-    // The vault begins so low that the clearance fits under it at the edge of what is laid.
-    let at_edge = (1.0 - ((radius - WALL_M) / radius).powi(2)).sqrt();
-    let rise = if is_flat { FLAT_M / (1.0 - at_edge) } else { radius };
-    let spring = (clearance_m - rise * at_edge).max(0.5 * clearance_m);
-    let mut outline = vec![[-right, -0.3]];
-    for k in 0..=VAULT {
-        let (sin, cos) = trig::sin_cos(std::f64::consts::PI * k as f64 / VAULT as f64);
-        outline.push([middle - radius * cos, spring + rise * sin]);
-    }
-    outline.push([left, -0.3]);
-    outline
+/// What is at the end of a tunnel.
+enum End {
+    Portal,
+    /// A path ends within the ground.
+    Wall,
+    /// It goes on: over the seam of a closed path, or into an intersection.
+    None,
 }
 
-/// The face around the opening, and a lid from it to the natural ground at the section behind it.
+fn end_of(path: &PathResult, station_m: f64, junctions: &[Arc<Junction>]) -> End {
+    let length = path.path.length_m();
+    if station_m > 0.0 && station_m < length {
+        return End::Portal;
+    }
+    let spans = junctions.iter().flat_map(|j| &j.spans).filter(|(id, _)| *id == path.path.id);
+    let mut spans = spans.map(|(_, span)| span);
+    if path.path.plan.is_closed() {
+        let tunnels = path.structures.iter().filter(|s| s.carrier == Carrier::Tunnel);
+        let both = tunnels.fold([false; 2], |both, s| [both[0] || s.from_m <= 0.0, both[1] || s.to_m >= length]);
+        return if both == [true; 2] { End::None } else { End::Portal };
+    }
+    if spans.any(|[from, to]| (*from..=*to).contains(&station_m)) { End::None } else { End::Wall }
+}
+
+/// Closes a tunnel, seen from both sides.
+fn wall(mesh: &mut Mesh, section: &CrossSection, outline: &[[f64; 2]]) {
+    let corners: Vec<P3> = outline.iter().map(|[left, up]| beside(section, *left, *up)).collect();
+    for pair in corners[1..].windows(2) {
+        triangle(mesh, [corners[0], pair[0], pair[1]]);
+        triangle(mesh, [corners[0], pair[1], pair[0]]);
+    }
+}
+
+/// The opening of a tunnel: upright walls and a vault, a part of an ellipse, under which the clearance is kept at the edges of what is laid.
+struct Opening {
+    /// Left of the middle of the path, and half the width, m.
+    middle_m: f64,
+    radius_m: f64,
+    clearance_m: f64,
+    /// How high the vault is at the edge of what is laid, as a share of its rise.
+    at_edge: f64,
+}
+
+impl Opening {
+    fn of(section: &Section) -> Self {
+        let [left, right] = section.half_widths_m().map(|half| half + WALL_M);
+        let radius_m = 0.5 * (left + right);
+        let at_edge = (1.0 - ((radius_m - WALL_M) / radius_m).powi(2)).sqrt();
+        Self { middle_m: 0.5 * (left - right), radius_m, clearance_m: section.clearance_m, at_edge }
+    }
+
+    /// The rise of the vault that is a half circle, or, where the ground over these cross-sections has no room for that, the highest that stays below the ground.
+    fn covered_rise_m(&self, sections: &[CrossSection], natural: &Heightfield) -> f64 {
+        let mut rise = self.radius_m;
+        for section in sections {
+            for [sin, cos] in vault() {
+                let place = section.point + section.left * (self.middle_m - self.radius_m * cos);
+                let room = natural.height(place) - COVER_M - section.height_m - self.clearance_m;
+                if sin > self.at_edge {
+                    rise = rise.min(room / (sin - self.at_edge));
+                }
+            }
+        }
+        rise
+    }
+
+    /// Left of the middle and above the surface, from the right foot to the left one, with a vault of this rise, or of the least.
+    fn outline(&self, rise_m: f64) -> Vec<[f64; 2]> {
+        let rise = rise_m.max(FLAT_M / (1.0 - self.at_edge));
+        let spring = (self.clearance_m - rise * self.at_edge).max(0.5 * self.clearance_m);
+        let mut outline = vec![[self.middle_m - self.radius_m, -0.3]];
+        outline.extend(vault().map(|[sin, cos]| [self.middle_m - self.radius_m * cos, spring + rise * sin]));
+        outline.push([self.middle_m + self.radius_m, -0.3]);
+        outline
+    }
+}
+
+/// Sine and cosine of the corners of a vault, from the right to the left.
+fn vault() -> impl Iterator<Item = [f64; 2]> {
+    (0..=VAULT).map(|k| trig::sin_cos(std::f64::consts::PI * k as f64 / VAULT as f64)).map(|(sin, cos)| [sin, cos])
+}
+
+/// The face around the opening, whose top follows the natural ground at the section behind it, and a lid from there to that ground.
 fn portal(
     mesh: &mut Mesh,
     section: &CrossSection,
@@ -102,17 +183,20 @@ fn portal(
     outline: &[[f64; 2]],
     natural: &Heightfield,
 ) {
-    let (right, left) = (outline[0][0] - FACE_M, outline[outline.len() - 1][0] + FACE_M);
-    let ground = |behind: &CrossSection, left: f64| {
-        let place = behind.point + behind.left * left;
-        natural.height(place)
-    };
-    let sides = [right, 0.5 * (right + left), left];
-    let above = behind.map_or(f64::NEG_INFINITY, |b| {
-        sides.iter().map(|side| ground(b, *side)).fold(f64::NEG_INFINITY, f64::max) - section.height_m
+    let (first, last) = (outline[0], outline[outline.len() - 1]);
+    // On the right, in the middle and on the left.
+    let sides = [first[0] - BESIDE_M, 0.5 * (first[0] + last[0]), last[0] + BESIDE_M];
+    let ground = |behind: &CrossSection, left: f64| natural.height(behind.point + behind.left * left);
+    let least = outline.iter().map(|p| p[1]).fold(0.0, f64::max) + ABOVE_M;
+    let tops = sides.map(|side| {
+        let above = behind.map_or(f64::NEG_INFINITY, |b| ground(b, side) - section.height_m + EDGE_M);
+        [side, least.max(above)]
     });
-    let top = (outline.iter().map(|p| p[1]).fold(0.0, f64::max) + FACE_M).max(above + EDGE_M);
-    let at = |[l, up]: [f64; 2]| beside(section, l, up);
+    let top = |left: f64| {
+        let [a, b] = if left < sides[1] { [tops[0], tops[1]] } else { [tops[1], tops[2]] };
+        [left, a[1] + (b[1] - a[1]) * (left - a[0]) / (b[0] - a[0])]
+    };
+    let at = |[left, up]: [f64; 2]| beside(section, left, up);
     // Seen from both sides.
     let mut face = |[a, b, c, d]: [P3; 4]| {
         quad(mesh, [a, b, c, d]);
@@ -120,18 +204,18 @@ fn portal(
     };
     for pair in outline.windows(2) {
         let [a, b] = [pair[0], pair[1]];
-        face([a, b, [b[0], top], [a[0], top]].map(at));
+        face([a, b, top(b[0]), top(a[0])].map(at));
     }
-    let (first, last) = (outline[0], outline[outline.len() - 1]);
-    face([[right, -1.0], [first[0], -1.0], [first[0], top], [right, top]].map(at));
-    face([[last[0], -1.0], [left, -1.0], [left, top], [last[0], top]].map(at));
+    for [outer, inner] in [[sides[0], first[0]], [last[0], sides[2]]] {
+        face([[outer, -FOOT_M], [inner, -FOOT_M], top(inner), top(outer)].map(at));
+    }
     if let Some(behind) = behind {
         let on_ground = |left: f64| {
             let place = behind.point + behind.left * left;
             [place.x, place.y, ground(behind, left) - EDGE_M]
         };
-        for pair in sides.windows(2) {
-            face([at([pair[0], top]), at([pair[1], top]), on_ground(pair[1]), on_ground(pair[0])]);
+        for pair in tops.windows(2) {
+            face([at(pair[0]), at(pair[1]), on_ground(pair[1][0]), on_ground(pair[0][0])]);
         }
     }
 }
@@ -147,12 +231,13 @@ pub(super) struct Mouth {
     across: [f64; 2],
 }
 
-/// The mouths of all tunnels, but for those at which a path ends.
+/// The mouths of all tunnels with a portal.
 pub(super) fn mouths(results: &Results) -> Vec<Mouth> {
     let step = results.ground.grid().step_m();
     let of = |path: &PathResult| {
         let ends = path.structures.iter().filter(|s| s.carrier == Carrier::Tunnel);
         let ends = ends.flat_map(|s| [(s.from_m, 1.0), (s.to_m, -1.0)]);
+        let ends = ends.filter(|(station, _)| matches!(end_of(path, *station, &results.junctions), End::Portal));
         let [left, right] = path.path.section.half_widths_m();
         let mouth = |(station, sign): (f64, f64)| {
             let pose = path.path.plan.pose_at(station);
