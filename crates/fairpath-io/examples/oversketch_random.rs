@@ -71,6 +71,7 @@ fn main() {
     let mut random = Lcg(7);
     let (mut done, mut failed, mut warned) = (0, 0, 0);
     let (mut ms, mut deviations, mut jumps, mut region_us) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+    let mut pieces = Vec::new();
     while done + failed < count {
         let stroke = &strokes[(random.unit() * strokes.len() as f64) as usize % strokes.len()];
         let Ok(old) = fit(stroke, &FitOptions::default()) else { continue };
@@ -89,6 +90,7 @@ fn main() {
                 done += 1;
                 deviations.push(result.report.max_deviation);
                 jumps.push(jump(&result));
+                pieces.push(result.new.len() as f64);
                 assert!(region.is_ok_and(|r| r == result.region), "the preview tells what will be done");
                 let outside = result.spline.segments().len() - result.new.len();
                 assert!(kept(&old, &result) + 2 >= outside, "{}: what stays has changed", stroke.name);
@@ -122,6 +124,7 @@ fn main() {
     print("time, ms", &mut ms);
     print("preview, µs", &mut region_us);
     print("largest deviation from the integrated stroke, px", &mut deviations);
+    print("segments of the new part", &mut pieces);
     print("largest jump of curvature at G2 joins of the new part, 1/px", &mut jumps);
 }
 
@@ -135,5 +138,12 @@ fn jump(result: &Oversketched) -> f64 {
 fn print(what: &str, values: &mut [f64]) {
     values.sort_by(f64::total_cmp);
     let at = |q: f64| values.get((q * (values.len() - 1) as f64) as usize).copied().unwrap_or(f64::NAN);
-    println!("{what}: median {:.3e}, 90 % {:.3e}, 99 % {:.3e}, most {:.3e}", at(0.5), at(0.9), at(0.99), at(1.0));
+    let mean = values.iter().sum::<f64>() / values.len() as f64;
+    println!(
+        "{what}: mean {mean:.3e}, median {:.3e}, 90 % {:.3e}, 99 % {:.3e}, most {:.3e}",
+        at(0.5),
+        at(0.9),
+        at(0.99),
+        at(1.0)
+    );
 }

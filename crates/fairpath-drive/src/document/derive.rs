@@ -3,7 +3,9 @@
 
 use super::state::{FoliageRegion, LaidTerrain, State};
 use crate::furniture::{DRY_M, Sign, Tree, signs, stopping_arms, tiles_of, trees_on};
-use crate::ground::{CorridorSite, CrossSection, Ground, Hit, Hits, TILE, TileIndex, cross_sections, hits};
+use crate::ground::{
+    Corridor, CorridorSite, CrossSection, Ground, Hit, Hits, TILE, TileIndex, corridor, cross_sections,
+};
 use crate::groups::Groups;
 use crate::network::{
     Arm, Crossing, HeightMode, Junction, Path, PathId, PathPlace, Site, Structure, Unordered, alone, crossings_between,
@@ -34,8 +36,8 @@ pub struct PathResult {
     infeasible: Option<Arc<str>>,
     /// Its crossings, for which it has bridges.
     crossings: Vec<Crossing>,
-    /// What its corridor asks of the ground.
-    hits: Arc<Hits>,
+    /// What it asks of the ground.
+    corridor: Arc<Corridor>,
 }
 
 /// Crossings of each pair of paths that has any.
@@ -174,19 +176,13 @@ fn derived(before: Option<(&State, &Results)>, state: &State, terrain: &LaidTerr
                 let site = CorridorSite { natural: &terrain.field, soils: &state.soils, options };
                 // Where the path runs as it did, so does its corridor.
                 let kept = old.filter(|old| same_ground && Arc::ptr_eq(&old.path.section, &path.section));
-                let kept = kept.map(|old| (old.sections.as_slice(), old.hits.as_ref()));
+                let kept = kept.map(|old| (old.sections.as_slice(), old.corridor.as_ref()));
                 let before = kept.map_or(&[][..], |(sections, _)| sections);
                 let sections = cross_sections(path, &profile, &structures, &site, before);
-                let hits = hits(&sections, kept, path.section.bed_m, options, old_ground.grid());
-                let (sections, hits) = (Arc::new(sections.all), Arc::new(hits));
+                let corridor = corridor(&sections, kept, path.section.bed_m, options, old_ground.grid());
+                let (sections, corridor) = (Arc::new(sections.all), Arc::new(corridor));
                 // Where it asks what it asked before, the ground stays.
-                let before = old.map(|old| old.hits.as_ref());
-                for (tile, new) in hits.iter() {
-                    dirty.compare(*tile, before.and_then(|b| b.get(tile)), Some(new));
-                }
-                for (tile, old) in before.into_iter().flatten().filter(|(tile, _)| !hits.contains_key(*tile)) {
-                    dirty.compare(*tile, Some(old), None);
-                }
+                dirty.compare(old.map(|old| old.corridor.as_ref()), Some(&corridor));
                 PathResult {
                     path: path.clone(),
                     profile,
@@ -196,20 +192,18 @@ fn derived(before: Option<(&State, &Results)>, state: &State, terrain: &LaidTerr
                     wanted: elevation.wanted.clone(),
                     infeasible: elevation.infeasible.clone(),
                     crossings: crossings_of[i].clone(),
-                    hits,
+                    corridor,
                 }
             }
         };
         paths.push(Arc::new(result));
     }
     let gone = before.into_iter().flat_map(|(_, r)| &r.paths).filter(|old| index(old.path.id).is_none());
-    for (tile, hits) in gone.flat_map(|old| old.hits.iter()) {
-        dirty.compare(*tile, Some(hits), None);
-    }
+    gone.for_each(|old| dirty.compare(Some(&old.corridor), None));
     let ground = if dirty.shaped.is_empty() {
         old_ground.clone()
     } else {
-        let corridors: Vec<&Hits> = paths.iter().map(|p| p.hits.as_ref()).collect();
+        let corridors: Vec<&Hits> = paths.iter().map(|p| &p.corridor.hits).collect();
         old_ground.reshaped(&dirty.shaped, &corridors)
     };
     let junctions = intersections(before.map(|(_, r)| r), state, &paths, &crossings);
@@ -233,31 +227,43 @@ struct Dirty {
 }
 
 impl Dirty {
-    fn compare(&mut self, tile: TileIndex, old: Option<&Arc<Vec<Hit>>>, new: Option<&Arc<Vec<Hit>>>) {
-        let same = match (old, new) {
-            (Some(a), Some(b)) => Arc::ptr_eq(a, b) || a == b,
-            (a, b) => a.is_none() && b.is_none(),
-        };
-        if !same {
-            self.shaped.insert(tile);
-            fn cleared(hits: Option<&Arc<Vec<Hit>>>) -> impl Iterator<Item = u16> {
-                hits.into_iter().flat_map(|hits| hits.iter()).filter(|h| h.keeps_clear()).map(|h| h.sample)
-            }
-            if !cleared(old).eq(cleared(new)) {
-                // A tree beside a sample at the rim of a tile may stand on the next one.
-                let [mut columns, mut rows] = tile.map(|i| [i, i]);
-                for sample in cleared(old).chain(cleared(new)) {
-                    let at = [sample % TILE as u16, sample / TILE as u16];
-                    for (range, (at, i)) in [&mut columns, &mut rows].into_iter().zip(at.into_iter().zip(tile)) {
-                        let last = usize::from(at) == TILE - 1;
-                        *range =
-                            [if at == 0 { i.saturating_sub(1) } else { range[0] }, if last { i + 1 } else { range[1] }];
-                    }
+    /// Adds the tiles of which a path asks something else than before.
+    fn compare(&mut self, old: Option<&Corridor>, new: Option<&Corridor>) {
+        let all: BTreeSet<TileIndex> = [old, new].into_iter().flatten().flat_map(|c| c.hits.keys()).copied().collect();
+        for tile in all {
+            let [before, now] = [old, new].map(|corridor| corridor.and_then(|c| c.hits.get(&tile)));
+            let same = match (before, now) {
+                (Some(a), Some(b)) => Arc::ptr_eq(a, b) || a == b,
+                (a, b) => a.is_none() && b.is_none(),
+            };
+            if !same {
+                self.shaped.insert(tile);
+                if !old.zip(new).is_some_and(|(old, new)| new.clears_as(old, tile)) {
+                    self.clear(tile, before, now);
                 }
-                let [columns, rows] = [columns, rows].map(|[from, to]| from..=to);
-                self.cleared.extend(rows.flat_map(|row| columns.clone().map(move |column| [column, row])));
             }
         }
+    }
+
+    /// Adds the tiles where trees have other places to stand, since a path keeps other samples of a tile clear.
+    fn clear(&mut self, tile: TileIndex, old: Option<&Arc<Vec<Hit>>>, new: Option<&Arc<Vec<Hit>>>) {
+        fn cleared(hits: Option<&Arc<Vec<Hit>>>) -> impl Iterator<Item = u16> {
+            hits.into_iter().flat_map(|hits| hits.iter()).filter(|h| h.keeps_clear()).map(|h| h.sample)
+        }
+        if cleared(old).eq(cleared(new)) {
+            return;
+        }
+        // A tree beside a sample at the rim of a tile may stand on the next one.
+        let [mut columns, mut rows] = tile.map(|i| [i, i]);
+        for sample in cleared(old).chain(cleared(new)) {
+            let at = [sample % TILE as u16, sample / TILE as u16];
+            for (range, (at, i)) in [&mut columns, &mut rows].into_iter().zip(at.into_iter().zip(tile)) {
+                let last = usize::from(at) == TILE - 1;
+                *range = [if at == 0 { i.saturating_sub(1) } else { range[0] }, if last { i + 1 } else { range[1] }];
+            }
+        }
+        let [columns, rows] = [columns, rows].map(|[from, to]| from..=to);
+        self.cleared.extend(rows.flat_map(|row| columns.clone().map(move |column| [column, row])));
     }
 }
 
@@ -325,7 +331,7 @@ fn planted(
             which.extend(around(&dirty.shaped).into_iter().filter(may_be_wet));
         }
     }
-    let corridors: Vec<&Hits> = paths.iter().map(|p| p.hits.as_ref()).collect();
+    let corridors: Vec<&Hits> = paths.iter().map(|p| &p.corridor.hits).collect();
     let which: Vec<TileIndex> = which.into_iter().collect();
     let planted = parallel::map(&which, |tile| {
         // Most paths are far away.

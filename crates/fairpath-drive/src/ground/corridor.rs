@@ -5,7 +5,7 @@ use crate::course::Course;
 use crate::network::{Carrier, Path, Structure};
 use crate::profile::Profile;
 use crate::terrain::Heightfield;
-use fairpath_curve::{Point, Pose, Vec2};
+use fairpath_curve::{Point, Pose, Segment, Vec2};
 use fairpath_fit::parallel;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -268,21 +268,21 @@ struct Place {
 }
 
 /// Where cross-sections are taken, and what carries the path there, if not the ground. Where that changes there are two at one place. Places are told from the start of each
-/// segment of the plan, so that where the plan is as it was, they are.
+/// segment of the plan, so that where the plan is as it was, they are; the ends of bridges and tunnels come in between and move none of them.
 fn places(path: &Path, structures: &[Structure]) -> Vec<(Place, Option<Carrier>)> {
     let course = Course::new(&path.plan);
     let segments = path.plan.segments();
-    let mut cuts_of: Vec<Vec<f64>> = segments.iter().map(|segment| segment.flatten_at(CHORD_M)).collect();
+    let mut cuts_of: Vec<Vec<f64>> = segments.iter().map(even_cuts).collect();
     for station in structures.iter().flat_map(|s| [s.from_m, s.to_m]) {
         let (segment, s) = course.locate(station);
-        cuts_of[segment].push(s);
+        // Stations have other last digits where the path became longer before them.
+        cuts_of[segment].push((s / LEAST_M).round() * LEAST_M);
     }
     let mut out: Vec<(Place, Option<Carrier>)> = Vec::new();
     let mut carrier = None;
     for (i, (segment, mut cuts)) in segments.iter().zip(cuts_of).enumerate() {
         let place = |s: f64| Place { station_m: course.station(i, s), pose: segment.pose_at(s) };
         let is_last = i + 1 == segments.len();
-        cuts.push(0.0);
         cuts.sort_by(f64::total_cmp);
         // The end is the start of the next one.
         cuts.retain(|s| *s < segment.length - LEAST_M);
@@ -295,8 +295,7 @@ fn places(path: &Path, structures: &[Structure]) -> Vec<(Place, Option<Carrier>)
                 out.push((place(from), carrier));
             }
             carrier = own;
-            let parts = ((to - from) / FURTHEST_M).ceil().max(1.0) as usize;
-            out.extend((0..parts).map(|p| (place(from + (to - from) * p as f64 / parts as f64), carrier)));
+            out.push((place(from), carrier));
         }
         if is_last {
             out.push((place(segment.length), carrier));
@@ -305,8 +304,20 @@ fn places(path: &Path, structures: &[Structure]) -> Vec<(Place, Option<Carrier>)
     out
 }
 
+/// Where a segment is cut so that chords stay near to it and are not too long, from its start on, m.
+fn even_cuts(segment: &Segment) -> Vec<f64> {
+    let mut cuts = Vec::new();
+    let mut from = 0.0;
+    for to in segment.flatten_at(CHORD_M).into_iter().chain([segment.length]) {
+        let parts = ((to - from) / FURTHEST_M).ceil().max(1.0) as usize;
+        cuts.extend((0..parts).map(|p| from + (to - from) * p as f64 / parts as f64));
+        from = to;
+    }
+    cuts
+}
+
 /// Cross-sections nearer to each other than this would be one, m.
-const LEAST_M: f64 = 1e-3;
+const LEAST_M: f64 = 1.0 / 1024.0;
 
 /// Heights of cross-sections are told in steps of this, m: no ground is shaped to a millimetre, and what hardly changed far from where a path was drawn over is then the same.
 const HEIGHT_STEP_M: f64 = 1.0 / 1024.0;

@@ -13,7 +13,7 @@ pub use tiles::{FineGrid, TileIndex};
 pub use volumes::{MassHaul, areas_m2_at, mass_haul, volumes_m3};
 
 pub(crate) use corridor::{Site as CorridorSite, cross_sections};
-pub(crate) use raster::{Hit, Hits, hits};
+pub(crate) use raster::{Corridor, Hit, Hits, corridor};
 pub(crate) use tiles::TILE;
 
 use crate::terrain::Heightfield;

@@ -1,4 +1,6 @@
 //! A corridor on the fine grid of the ground: cross-sections come in, for each sample that they reach how low and how high the ground may be there goes out.
+//!
+//! Where a sample lies along and across the path depends on the plan alone and is kept: when only heights change, as they do far from where a path was drawn over, samples are bounded anew, not found anew.
 
 use super::corridor::{CrossSection, Design, EarthworkOptions, Sections, Side};
 use super::tiles::{FineGrid, TILE, TileIndex};
@@ -32,78 +34,117 @@ impl Hit {
 /// The samples that a path asks something of, by tile, each once and in order.
 pub(crate) type Hits = BTreeMap<TileIndex, Arc<Vec<Hit>>>;
 
+/// What a path asks of the ground, and where its samples lie.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Corridor {
+    /// What is asked of each sample.
+    pub(crate) hits: Hits,
+    /// The samples beside the path, by tile: those of all hits, and of some more, which the slopes do not reach as they are.
+    spots: BTreeMap<TileIndex, Arc<Spots>>,
+}
+
+impl PartialEq for Corridor {
+    fn eq(&self, other: &Self) -> bool {
+        // How far beside the slopes samples are known tells nothing of the ground.
+        self.hits == other.hits
+    }
+}
+
+impl Corridor {
+    /// Whether a tile keeps the same samples clear of trees as another corridor's does for certain: these are told by the plan.
+    pub(crate) fn clears_as(&self, other: &Self, tile: TileIndex) -> bool {
+        matches!((self.spots.get(&tile), other.spots.get(&tile)), (Some(a), Some(b)) if Arc::ptr_eq(a, b))
+    }
+}
+
+/// The samples of a tile beside a path.
+#[derive(Debug, PartialEq)]
+struct Spots {
+    /// The strips that may reach the tile, ascending, each as it was looked at.
+    strips: Vec<StripPlan>,
+    /// By samples, and of those at one sample the nearest first.
+    all: Vec<Spot>,
+}
+
+/// What the samples of a strip, the ground between two cross-sections, depend on: middles and directions of its sections, and how far to the left and the right it is looked at, m.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct StripPlan {
+    between: [(Point, Vec2); 2],
+    looked_m: [f64; 2],
+}
+
+/// A sample in a strip.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Spot {
+    /// Which sample of its tile.
+    sample: u16,
+    /// Which strip of its tile.
+    strip: u16,
+    /// How far from the first section to the second, 0 to 1.
+    along: f32,
+    /// To the left of the path, m.
+    across_m: f32,
+}
+
 /// What the cross-sections of a path ask of the ground. Takes time in proportion to the area of the corridor that is new: of `before`, the sections and what they asked of the same
-/// grid under the same options and with the same bed, tiles stay that neither the old nor the new ones reach.
-pub(crate) fn hits(
+/// grid under the same options and with the same bed and widths, tiles stay that neither the old nor the new ones reach, and samples where they have the same plan.
+pub(crate) fn corridor(
     sections: &Sections,
-    before: Option<(&[CrossSection], &Hits)>,
+    before: Option<(&[CrossSection], &Corridor)>,
     bed_m: f64,
     options: &EarthworkOptions,
     grid: &FineGrid,
-) -> Hits {
+) -> Corridor {
     let strips = |all: &[CrossSection], changed: &Range<usize>| -> BTreeSet<TileIndex> {
         // A section bounds the strips on both sides of it.
         let pairs = changed.start.saturating_sub(1)..(changed.end + 1).min(all.len());
-        let boxes = all[pairs].windows(2).filter_map(|pair| reached([&pair[0], &pair[1]], grid));
-        boxes.flat_map(|[columns, rows]| grid.tiles(columns, rows)).collect()
+        let reached = all[pairs].windows(2).filter_map(|pair| StripPlan::of([&pair[0], &pair[1]], grid)?.reached(grid));
+        reached.flat_map(|[columns, rows]| grid.tiles(columns, rows)).collect()
     };
-    let (mut kept, which) = match before {
-        Some((old, hits)) => {
+    let (mut corridor, which) = match before {
+        Some((old, corridor)) => {
             let mut which = strips(old, &sections.old);
             which.extend(strips(&sections.all, &sections.new));
-            (hits.clone(), Some(which))
+            (corridor.clone(), Some(which))
         }
-        None => (Hits::new(), None),
+        None => (Corridor::default(), None),
     };
-    for tile in which.iter().flatten() {
-        kept.remove(tile);
-    }
     // The strips that reach each tile, ascending.
     let mut reaching: BTreeMap<TileIndex, Vec<Strip>> = BTreeMap::new();
     for pair in sections.all.windows(2) {
         let between = [&pair[0], &pair[1]];
-        let Some(reach) = reached(between, grid) else { continue };
-        for tile in grid.tiles(reach[0], reach[1]) {
+        let Some(plan) = StripPlan::of(between, grid) else { continue };
+        let (reach, wide) = (plan.reached(grid), plan.wider());
+        let Some(wide_reach) = wide.reached(grid) else { continue };
+        for tile in grid.tiles(wide_reach[0], wide_reach[1]) {
             if which.as_ref().is_none_or(|which| which.contains(&tile)) {
-                reaching.entry(tile).or_default().push(Strip { between, reach });
+                let is_needed = reach.is_some_and(|[columns, rows]| grid.tiles(columns, rows).any(|t| t == tile));
+                reaching.entry(tile).or_default().push(Strip { between, plan, wide, wide_reach, is_needed });
             }
         }
     }
     let reaching: Vec<(TileIndex, Vec<Strip>)> = reaching.into_iter().collect();
     let asked = parallel::map(&reaching, |(tile, strips)| {
-        let mut asked = Asked::nothing();
-        strips.iter().for_each(|strip| strip.ask(bed_m, options, grid, *tile, &mut asked));
-        asked.ordered()
+        let kept = corridor.spots.get(tile).and_then(|kept| Some((kept.clone(), kept.found_in(strips)?)));
+        let (spots, places) = kept.unwrap_or_else(|| {
+            (Arc::new(Spots::of(strips, grid, *tile)), strips.iter().map(|strip| Some(strip.between)).collect())
+        });
+        let hits = spots.bounded(&places, bed_m, options, grid);
+        (spots, hits)
     });
-    let asked = reaching.into_iter().zip(asked).filter(|(_, asked)| !asked.is_empty());
-    kept.extend(asked.map(|((tile, _), asked)| (tile, Arc::new(asked))));
-    kept
-}
-
-/// What is asked of each sample of a tile while strips are added; where nothing is, the path is endlessly far away.
-struct Asked([Hit; TILE * TILE]);
-
-impl Asked {
-    fn nothing() -> Self {
-        let nothing = Hit { sample: 0, beyond_m: f32::INFINITY, low_m: f32::NEG_INFINITY, high_m: f32::INFINITY };
-        Self([nothing; TILE * TILE])
+    for tile in which.iter().flatten() {
+        corridor.hits.remove(tile);
+        corridor.spots.remove(tile);
     }
-
-    /// Of what several stretches of the path ask of one sample, the nearest counts.
-    fn add(&mut self, hit: Hit) {
-        let before = &mut self.0[usize::from(hit.sample)];
-        if hit.beyond_m < before.beyond_m {
-            *before = hit;
+    for ((tile, _), (spots, hits)) in reaching.into_iter().zip(asked) {
+        if !spots.all.is_empty() {
+            corridor.spots.insert(tile, spots);
+        }
+        if !hits.is_empty() {
+            corridor.hits.insert(tile, Arc::new(hits));
         }
     }
-
-    /// All of it in the order of samples.
-    fn ordered(&self) -> Vec<Hit> {
-        let asked = || self.0.iter().filter(|hit| hit.beyond_m < f32::INFINITY);
-        let mut all = Vec::with_capacity(asked().count());
-        all.extend(asked());
-        all
-    }
+    corridor
 }
 
 /// How far a side reaches: to daylight, or as far as no tree shall stand.
@@ -111,49 +152,165 @@ fn furthest(side: &Side) -> f64 {
     side.daylight_m.max(side.half_width_m + CLEAR_M)
 }
 
-/// The columns and rows of the grid between which all lies that two cross-sections ask something of, if they ask anything.
-fn reached([a, b]: [&CrossSection; 2], grid: &FineGrid) -> Option<[[usize; 2]; 2]> {
-    if a.covered || b.covered || !(b.station_m > a.station_m) {
-        return None;
+/// Sides are looked at this much further than they reach, m: as long as a slope reaches no further, the samples beside it are the same.
+const LOOK_M: f64 = 5.0;
+
+impl StripPlan {
+    /// The plan of the strip between two cross-sections, if it can ask anything of the ground.
+    fn of([a, b]: [&CrossSection; 2], grid: &FineGrid) -> Option<Self> {
+        if a.covered || b.covered || !(b.station_m > a.station_m) {
+            return None;
+        }
+        let looked_m = [0, 1].map(|i| furthest(&a.sides[i]).max(furthest(&b.sides[i])) + grid.step_m());
+        Some(Self { between: [(a.point, a.left), (b.point, b.left)], looked_m })
     }
-    let reach = |i: usize| furthest(&a.sides[i]).max(furthest(&b.sides[i])) + grid.step_m();
-    grid.samples_around(&[
-        a.point + a.left * reach(0),
-        a.point - a.left * reach(1),
-        b.point + b.left * reach(0),
-        b.point - b.left * reach(1),
-    ])
+
+    /// The same, looked at further.
+    fn wider(self) -> Self {
+        Self { looked_m: self.looked_m.map(|looked| looked + LOOK_M), ..self }
+    }
+
+    /// Whether a strip with this plan has all samples of one with the other.
+    fn holds(&self, other: &Self) -> bool {
+        self.between == other.between && (0..2).all(|i| self.looked_m[i] >= other.looked_m[i])
+    }
+
+    /// The columns and rows of the grid between which it lies; nothing beside the terrain.
+    fn reached(&self, grid: &FineGrid) -> Option<[[usize; 2]; 2]> {
+        let [(a, left_a), (b, left_b)] = self.between;
+        let [left, right] = self.looked_m;
+        grid.samples_around(&[a + left_a * left, a - left_a * right, b + left_b * left, b - left_b * right])
+    }
 }
 
 /// A share of the grid's step that is nothing.
 const HAIR: f64 = 1e-6;
 
-/// The ground between two cross-sections.
+/// Two cross-sections of which one follows the other.
+type Between<'a> = [&'a CrossSection; 2];
+
+/// The ground between two cross-sections, at a tile.
 struct Strip<'a> {
-    between: [&'a CrossSection; 2],
-    /// As [`reached`] gives them.
-    reach: [[usize; 2]; 2],
+    between: Between<'a>,
+    plan: StripPlan,
+    /// The plan by which its samples are looked for.
+    wide: StripPlan,
+    /// As [`StripPlan::reached`] gives them of that.
+    wide_reach: [[usize; 2]; 2],
+    /// Whether it may ask anything of the tile as it is.
+    is_needed: bool,
+}
+
+impl Spots {
+    /// The cross-sections, as they are now, of the strips in which these samples lie; nothing where there may be others in these strips. A strip is not found that
+    /// has come to an end before the tile.
+    fn found_in<'a>(&self, strips: &[Strip<'a>]) -> Option<Vec<Option<Between<'a>>>> {
+        let mut found = vec![None; self.strips.len()];
+        let mut next = 0;
+        for strip in strips {
+            let at = self.strips[next..].iter().position(|own| own.between == strip.plan.between);
+            match at.filter(|at| self.strips[next + at].holds(&strip.plan)) {
+                Some(at) => {
+                    found[next + at] = Some(strip.between);
+                    next += at + 1;
+                }
+                None if strip.is_needed => return None,
+                None => {}
+            }
+        }
+        Some(found)
+    }
+
+    /// The samples of a tile in these strips.
+    fn of(strips: &[Strip], grid: &FineGrid, tile: TileIndex) -> Self {
+        let mut found = Vec::new();
+        for (i, strip) in strips.iter().enumerate() {
+            strip.spots(i as u16, grid, tile, &mut found);
+        }
+        // In the order of samples: counted, then put in their places.
+        let mut next = [0_u32; TILE * TILE + 1];
+        found.iter().for_each(|spot| next[usize::from(spot.sample) + 1] += 1);
+        for i in 1..next.len() {
+            next[i] += next[i - 1];
+        }
+        let mut all = found.clone();
+        for spot in found {
+            let place = &mut next[usize::from(spot.sample)];
+            all[*place as usize] = spot;
+            *place += 1;
+        }
+        // Of what several stretches of the path ask of one sample, the nearest counts.
+        let beyond = |spot: &Spot| {
+            let side = &strips[usize::from(spot.strip)].between[0].sides[usize::from(spot.across_m < 0.0)];
+            f64::from(spot.across_m.abs()) - side.half_width_m
+        };
+        for group in all.chunk_by_mut(|a, b| a.sample == b.sample) {
+            if group.len() > 1 {
+                group.sort_by(|a, b| beyond(a).total_cmp(&beyond(b)));
+            }
+        }
+        Self { strips: strips.iter().map(|strip| strip.wide).collect(), all }
+    }
+
+    /// What strips between these cross-sections ask of their samples, in order.
+    fn bounded(
+        &self,
+        strips: &[Option<Between<'_>>],
+        bed_m: f64,
+        options: &EarthworkOptions,
+        grid: &FineGrid,
+    ) -> Vec<Hit> {
+        // A wall stands where it stands; elsewhere the natural ground itself ends the slope.
+        let spare = |[a, b]: Between<'_>, i: usize| {
+            if a.sides[i].wall || b.sides[i].wall { 0.0 } else { grid.step_m() }
+        };
+        let spares: Vec<[f64; 2]> =
+            strips.iter().map(|strip| [0, 1].map(|i| strip.map_or(0.0, |between| spare(between, i)))).collect();
+        let mut hits: Vec<Hit> = Vec::with_capacity(self.all.len());
+        for spot in &self.all {
+            if hits.last().is_some_and(|hit| hit.sample == spot.sample) {
+                continue;
+            }
+            let strip = usize::from(spot.strip);
+            let Some([a, b]) = strips[strip] else { continue };
+            let (u, i) = (f64::from(spot.along), usize::from(spot.across_m < 0.0));
+            let (sa, sb) = (&a.sides[i], &b.sides[i]);
+            let lerp = |x: f64, y: f64| x + u * (y - x);
+            let across = f64::from(spot.across_m.abs());
+            if across > lerp(furthest(sa), furthest(sb)) + spares[strip][i] {
+                continue;
+            }
+            // A bridge or a pipe asks nothing of the ground, but no tree shall stand under it.
+            let [low, high] = if a.on_ground && b.on_ground {
+                let surface_m = lerp(a.height_m, b.height_m);
+                let design = Design { surface_m, bed_m, verge_m: options.verge_m, drop_m: options.verge_drop_m };
+                let runs = (lerp(sa.cut_run, sb.cut_run), lerp(sa.fill_run, sb.fill_run));
+                design.bounds(&Side { cut_run: runs.0, fill_run: runs.1, ..*sa }, across)
+            } else {
+                [f64::NEG_INFINITY, f64::INFINITY]
+            };
+            let beyond_m = (across - sa.half_width_m) as f32;
+            hits.push(Hit { sample: spot.sample, beyond_m, low_m: low as f32, high_m: high as f32 });
+        }
+        hits.shrink_to_fit();
+        hits
+    }
 }
 
 impl Strip<'_> {
-    /// What it asks of a tile.
-    fn ask(&self, bed_m: f64, options: &EarthworkOptions, grid: &FineGrid, tile: TileIndex, asked: &mut Asked) {
-        let [a, b] = self.between;
+    /// Its samples on a tile, of which it is the strip with this number.
+    fn spots(&self, strip: u16, grid: &FineGrid, tile: TileIndex, found: &mut Vec<Spot>) {
+        let [(a, left_a), (b, left_b)] = self.wide.between;
         let within = |[from, to]: [usize; 2], tile: u32| {
             let first = tile as usize * TILE;
             [from.max(first), to.min(first + TILE - 1)]
         };
-        let [columns, rows] = [within(self.reach[0], tile[0]), within(self.reach[1], tile[1])];
+        let [columns, rows] = [within(self.wide_reach[0], tile[0]), within(self.wide_reach[1], tile[1])];
         let along = |left: Vec2| Vec2::new(left.y, -left.x);
-        let (ta, tb) = (along(a.left), along(b.left));
+        let (ta, tb) = (along(left_a), along(left_b));
         // Of each row, whether what lies beyond a section towards east is wanted, and how its line slants.
         let sides = [(a, ta, true), (b, tb, false)]
-            .map(|(section, t, beyond)| (t.x != 0.0).then(|| (section.point, t.y / t.x, (t.x > 0.0) == beyond)));
-        // A bridge or a pipe asks nothing of the ground, but no tree shall stand under it.
-        let shapes = a.on_ground && b.on_ground;
-        let reaches = [0, 1].map(|i| [furthest(&a.sides[i]), furthest(&b.sides[i])]);
-        // A wall stands where it stands; elsewhere the natural ground itself ends the slope.
-        let spares = [0, 1].map(|i| if a.sides[i].wall || b.sides[i].wall { 0.0 } else { grid.step_m() });
+            .map(|(point, t, beyond)| (t.x != 0.0).then(|| (point, t.y / t.x, (t.x > 0.0) == beyond)));
         let [first, last] = columns.map(|column| column as f64);
         let step = grid.spacing_m().x;
         for row in rows[0]..=rows[1] {
@@ -176,36 +333,21 @@ impl Strip<'_> {
             let from = from + usize::from((from as f64) < within[0]);
             for column in from..=within[1] as usize {
                 let p = grid.place([column, row]);
-                let (da, db) = ((p - a.point).dot(ta), (p - b.point).dot(tb));
+                let (da, db) = ((p - a).dot(ta), (p - b).dot(tb));
                 if da < 0.0 || db > 0.0 || da == db {
                     continue;
                 }
                 let u = da / (da - db);
-                let lerp = |x: f64, y: f64| x + u * (y - x);
-                let centre: Point = a.point.lerp(b.point, u);
-                let off = p - centre;
-                let left = a.left.lerp(b.left, u);
-                let i = usize::from(off.dot(left) < 0.0);
-                let reach = lerp(reaches[i][0], reaches[i][1]) + spares[i];
-                if off.hypot2() > reach * reach {
+                let off = p - a.lerp(b, u);
+                let is_right = off.dot(left_a.lerp(left_b, u)) < 0.0;
+                let looked = self.wide.looked_m[usize::from(is_right)];
+                if off.hypot2() > looked * looked {
                     continue;
                 }
                 let across = off.hypot2().sqrt();
-                let (sa, sb) = (&a.sides[i], &b.sides[i]);
-                let design = Design {
-                    surface_m: lerp(a.height_m, b.height_m),
-                    bed_m,
-                    verge_m: options.verge_m,
-                    drop_m: options.verge_drop_m,
-                };
-                let mut side = *sa;
-                side.half_width_m = lerp(sa.half_width_m, sb.half_width_m);
-                (side.cut_run, side.fill_run) = (lerp(sa.cut_run, sb.cut_run), lerp(sa.fill_run, sb.fill_run));
-                let [low, high] =
-                    if shapes { design.bounds(&side, across) } else { [f64::NEG_INFINITY, f64::INFINITY] };
-                let beyond_m = (across - side.half_width_m) as f32;
                 let (_, sample) = grid.tile_of([column, row]);
-                asked.add(Hit { sample, beyond_m, low_m: low as f32, high_m: high as f32 });
+                let across_m = if is_right { -across } else { across } as f32;
+                found.push(Spot { sample, strip, along: u as f32, across_m });
             }
         }
     }

@@ -81,11 +81,10 @@ pub(crate) fn structures<'a>(
         return Vec::new();
     }
     let (length, closed) = (path.length_m(), path.plan.is_closed());
-    let count = (length / STEP_M).ceil().max(1.0) as usize;
-    let step = length / count as f64;
-    let station = |i: usize| length * i as f64 / count as f64;
     let course = Course::new(&path.plan);
-    let stations: Vec<f64> = (0..=count).map(station).collect();
+    let stations = course.steps(STEP_M);
+    let count = stations.len() - 1;
+    let station = |i: usize| if i > count { stations[i - count] + length } else { stations[i] };
     let at: Vec<(f64, bool)> = parallel::map(&stations, |station| {
         let place = course.point_at(*station);
         let z = ground.height(place);
@@ -120,8 +119,7 @@ pub(crate) fn structures<'a>(
     // Over water, whatever its height; a path under water is a tunnel already or goes through it.
     for range in ranges(&|i| on(i).1 && on(i).0 > 0.0, &|i| on(i).1) {
         let most_m = (range[0]..=range[1]).map(|i| on(i).0).fold(0.0, f64::max);
-        let inland = INLAND_M.max(step);
-        let [from_m, to_m] = [station(range[0]) - inland, station(range[1]) + inland];
+        let [from_m, to_m] = [station(range[0]) - INLAND_M, station(range[1]) + INLAND_M];
         let carrier = Carrier::Bridge;
         found.push(Structure { carrier, from_m, to_m, most_m, over_water: true, over_path: false });
     }
