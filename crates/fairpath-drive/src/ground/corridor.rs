@@ -57,6 +57,13 @@ pub struct Side {
     pub wall: bool,
 }
 
+impl Side {
+    /// How much a fill falls and a cut rises for each metre that it runs.
+    pub(crate) fn slopes(&self) -> [f64; 2] {
+        [1.0 / self.fill_run, 1.0 / self.cut_run]
+    }
+}
+
 /// A cross-section.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CrossSection {
@@ -100,16 +107,15 @@ pub(crate) struct Design {
 }
 
 impl Design {
-    /// Lowest and highest height of the ground at a distance from the middle.
+    /// Lowest and highest height of the ground at a distance beyond the edge of what is laid, where fills and cuts have these slopes.
     #[inline]
-    pub(crate) fn bounds(&self, side: &Side, across: f64) -> [f64; 2] {
-        let beyond = across - side.half_width_m;
+    pub(crate) fn bounds(&self, beyond: f64, [fill, cut]: [f64; 2]) -> [f64; 2] {
         if beyond <= 0.0 {
             return [self.surface_m - self.bed_m; 2];
         }
         let out = (beyond - self.verge_m).max(0.0);
         let verge = self.surface_m - self.drop_m;
-        [verge - out / side.fill_run, verge + out / side.cut_run]
+        [verge - out * fill, verge + out * cut]
     }
 }
 
@@ -218,7 +224,7 @@ fn slope(
     areas_m2: &mut [f64; 2],
     natural: impl Fn(f64) -> f64,
 ) {
-    let verge = side.half_width_m + options.verge_m;
+    let (verge, slopes) = (side.half_width_m + options.verge_m, side.slopes());
     let furthest = verge + options.reach_m;
     let mut add = |across: f64, width: f64, raised: f64| {
         let strip = raised * width * (1.0 - turn * across).max(0.0);
@@ -231,14 +237,14 @@ fn slope(
         for i in 0..count {
             let across = from + (i as f64 + 0.5) * width;
             let z = natural(across);
-            let [low, high] = design.bounds(side, across);
+            let [low, high] = design.bounds(across - side.half_width_m, slopes);
             add(across, width, z.min(high).max(low) - z);
         }
     }
     // Beyond the verge the ground is too high for the slope, or too low, until it meets it.
     let misses = |across: f64| {
         let z = natural(across);
-        let [low, high] = design.bounds(side, across);
+        let [low, high] = design.bounds(across - side.half_width_m, slopes);
         [high - z, low - z]
     };
     let [high, low] = misses(verge);

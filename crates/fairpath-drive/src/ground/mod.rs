@@ -137,7 +137,6 @@ impl Ground {
     /// The samples of a tile that are shaped where these corridors are, in order, and their heights, m.
     fn shaped_samples_of(&self, tile: TileIndex, corridors: &[&Hits]) -> Vec<(u16, f32)> {
         let asked: Vec<&[Hit]> = corridors.iter().filter_map(|hits| Some(hits.get(&tile)?.as_slice())).collect();
-        let natural = |sample: u16| self.natural_at(self.grid.sample_of(tile, sample)) as f32;
         let bounded = |z: f32, hit: &Hit| z.min(hit.high_m).max(hit.low_m);
         let mut samples = Vec::new();
         let mut add = |sample: u16, natural: f32, z: f32| {
@@ -147,15 +146,14 @@ impl Ground {
         };
         if let [alone] = asked[..] {
             for hit in alone {
-                let natural = natural(hit.sample);
-                add(hit.sample, natural, bounded(natural, hit));
+                add(hit.sample, hit.natural_m, bounded(hit.natural_m, hit));
             }
         } else {
             let mut all: Vec<&Hit> = asked.into_iter().flatten().collect();
             // The nearest path has the last word, and of two as near the one that was drawn later.
             all.sort_by(|p, q| p.sample.cmp(&q.sample).then(q.beyond_m.total_cmp(&p.beyond_m)));
             for group in all.chunk_by(|p, q| p.sample == q.sample) {
-                let natural = natural(group[0].sample);
+                let natural = group[0].natural_m;
                 add(group[0].sample, natural, group.iter().fold(natural, |z, hit| bounded(z, hit)));
             }
         }

@@ -2,12 +2,13 @@
 //!
 //! Where a sample lies along and across the path depends on the plan alone and is kept: when only heights change, as they do far from where a path was drawn over, samples are bounded anew, not found anew.
 
+use super::Ground;
 use super::corridor::{CrossSection, Design, EarthworkOptions, Sections, Side};
 use super::tiles::{FineGrid, TILE, TileIndex};
 use crate::furniture::CLEAR_M;
 use fairpath_curve::{Point, Vec2};
 use fairpath_fit::parallel;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -16,6 +17,8 @@ use std::sync::Arc;
 pub(crate) struct Hit {
     /// Which sample of its tile.
     pub(crate) sample: u16,
+    /// The natural ground there, m.
+    pub(crate) natural_m: f32,
     /// How far it lies beyond the edge of the path, m; negative on the path itself.
     pub(crate) beyond_m: f32,
     /// The ground is no lower, m.
@@ -84,50 +87,53 @@ struct Spot {
     along: f32,
     /// To the left of the path, m.
     across_m: f32,
+    /// Height of the natural ground there, m.
+    natural_m: f32,
 }
 
 /// What the cross-sections of a path ask of the ground. Takes time in proportion to the area of the corridor that is new: of `before`, the sections and what they asked of the same
-/// grid under the same options and with the same bed and widths, tiles stay that neither the old nor the new ones reach, and samples where they have the same plan.
+/// natural ground under the same options and with the same bed and widths, tiles stay that neither the old nor the new ones reach, and samples where they have the same plan.
 pub(crate) fn corridor(
     sections: &Sections,
     before: Option<(&[CrossSection], &Corridor)>,
     bed_m: f64,
     options: &EarthworkOptions,
-    grid: &FineGrid,
+    ground: &Ground,
 ) -> Corridor {
-    let strips = |all: &[CrossSection], changed: &Range<usize>| -> BTreeSet<TileIndex> {
-        // A section bounds the strips on both sides of it.
-        let pairs = changed.start.saturating_sub(1)..(changed.end + 1).min(all.len());
-        let reached = all[pairs].windows(2).filter_map(|pair| StripPlan::of([&pair[0], &pair[1]], grid)?.reached(grid));
-        reached.flat_map(|[columns, rows]| grid.tiles(columns, rows)).collect()
-    };
+    let grid = ground.grid();
     let (mut corridor, which) = match before {
         Some((old, corridor)) => {
-            let mut which = strips(old, &sections.old);
-            which.extend(strips(&sections.all, &sections.new));
+            let reached = |all: &[CrossSection], changed: &Range<usize>| -> Vec<TileIndex> {
+                // A section bounds the strips on both sides of it.
+                let pairs = changed.start.saturating_sub(1)..(changed.end + 1).min(all.len());
+                let strips = all[pairs].windows(2).filter_map(|pair| StripPlan::of([&pair[0], &pair[1]], grid));
+                strips.filter_map(|plan| plan.tiles(grid)).flat_map(tiles_within).collect()
+            };
+            let mut which = reached(old, &sections.old);
+            which.extend(reached(&sections.all, &sections.new));
+            which.sort_by_key(|tile| rank(*tile));
+            which.dedup();
             (corridor.clone(), Some(which))
         }
         None => (Corridor::default(), None),
     };
-    // The strips that reach each tile, ascending.
-    let mut reaching: BTreeMap<TileIndex, Vec<Strip>> = BTreeMap::new();
-    for pair in sections.all.windows(2) {
-        let between = [&pair[0], &pair[1]];
-        let Some(plan) = StripPlan::of(between, grid) else { continue };
-        let (reach, wide) = (plan.reached(grid), plan.wider());
-        let Some(wide_reach) = wide.reached(grid) else { continue };
-        for tile in grid.tiles(wide_reach[0], wide_reach[1]) {
-            if which.as_ref().is_none_or(|which| which.contains(&tile)) {
-                let is_needed = reach.is_some_and(|[columns, rows]| grid.tiles(columns, rows).any(|t| t == tile));
-                reaching.entry(tile).or_default().push(Strip { between, plan, wide, wide_reach, is_needed });
-            }
-        }
+    let strips: Vec<Strip> = sections.all.windows(2).filter_map(|pair| Strip::of([&pair[0], &pair[1]], grid)).collect();
+    // The strips that may reach each tile, ascending.
+    let mut reaching: Vec<(TileIndex, usize)> = Vec::new();
+    for (i, strip) in strips.iter().enumerate() {
+        let tiles = tiles_within(strip.wide_tiles);
+        let wanted = tiles.filter(|tile| which.as_ref().is_none_or(|which| which.binary_search(tile).is_ok()));
+        reaching.extend(wanted.map(|tile| (tile, i)));
     }
-    let reaching: Vec<(TileIndex, Vec<Strip>)> = reaching.into_iter().collect();
-    let asked = parallel::map(&reaching, |(tile, strips)| {
-        let kept = corridor.spots.get(tile).and_then(|kept| Some((kept.clone(), kept.found_in(strips)?)));
+    // Stable, so that strips stay in their order.
+    reaching.sort_by_key(|(tile, _)| rank(*tile));
+    let reaching: Vec<&[(TileIndex, usize)]> = reaching.chunk_by(|a, b| a.0 == b.0).collect();
+    let asked = parallel::map(&reaching, |reaching| {
+        let tile = reaching[0].0;
+        let strips: Vec<&Strip> = reaching.iter().map(|(_, strip)| &strips[*strip]).collect();
+        let kept = corridor.spots.get(&tile).and_then(|kept| Some((kept.clone(), kept.found_in(&strips, tile)?)));
         let (spots, places) = kept.unwrap_or_else(|| {
-            (Arc::new(Spots::of(strips, grid, *tile)), strips.iter().map(|strip| Some(strip.between)).collect())
+            (Arc::new(Spots::of(&strips, ground, tile)), strips.iter().map(|strip| Some(strip.between)).collect())
         });
         let hits = spots.bounded(&places, bed_m, options, grid);
         (spots, hits)
@@ -136,15 +142,25 @@ pub(crate) fn corridor(
         corridor.hits.remove(tile);
         corridor.spots.remove(tile);
     }
-    for ((tile, _), (spots, hits)) in reaching.into_iter().zip(asked) {
+    for (reaching, (spots, hits)) in reaching.into_iter().zip(asked) {
         if !spots.all.is_empty() {
-            corridor.spots.insert(tile, spots);
+            corridor.spots.insert(reaching[0].0, spots);
         }
         if !hits.is_empty() {
-            corridor.hits.insert(tile, Arc::new(hits));
+            corridor.hits.insert(reaching[0].0, Arc::new(hits));
         }
     }
     corridor
+}
+
+/// The order of tiles in one number, which is soon compared.
+fn rank([column, row]: TileIndex) -> u64 {
+    u64::from(column) << 32 | u64::from(row)
+}
+
+/// The tiles between two columns and rows of tiles.
+fn tiles_within([low, high]: [TileIndex; 2]) -> impl Iterator<Item = TileIndex> {
+    (low[1]..=high[1]).flat_map(move |row| (low[0]..=high[0]).map(move |column| [column, row]))
 }
 
 /// How far a side reaches: to daylight, or as far as no tree shall stand.
@@ -175,7 +191,13 @@ impl StripPlan {
         self.between == other.between && (0..2).all(|i| self.looked_m[i] >= other.looked_m[i])
     }
 
-    /// The columns and rows of the grid between which it lies; nothing beside the terrain.
+    /// The first and the last tile by column and row between which it lies; nothing beside the terrain.
+    fn tiles(&self, grid: &FineGrid) -> Option<[TileIndex; 2]> {
+        let [columns, rows] = self.reached(grid)?;
+        Some([0, 1].map(|i| grid.tile_of([columns[i], rows[i]]).0))
+    }
+
+    /// The columns and rows of the grid between which it lies.
     fn reached(&self, grid: &FineGrid) -> Option<[[usize; 2]; 2]> {
         let [(a, left_a), (b, left_b)] = self.between;
         let [left, right] = self.looked_m;
@@ -189,22 +211,35 @@ const HAIR: f64 = 1e-6;
 /// Two cross-sections of which one follows the other.
 type Between<'a> = [&'a CrossSection; 2];
 
-/// The ground between two cross-sections, at a tile.
+/// The ground between two cross-sections.
 struct Strip<'a> {
     between: Between<'a>,
     plan: StripPlan,
-    /// The plan by which its samples are looked for.
+    /// The tiles in which it may ask anything, as [`StripPlan::tiles`] gives them.
+    tiles: Option<[TileIndex; 2]>,
+    /// The plan by which its samples are looked for, and the tiles in which these lie.
     wide: StripPlan,
-    /// As [`StripPlan::reached`] gives them of that.
-    wide_reach: [[usize; 2]; 2],
-    /// Whether it may ask anything of the tile as it is.
-    is_needed: bool,
+    wide_tiles: [TileIndex; 2],
+}
+
+impl<'a> Strip<'a> {
+    /// The ground between two cross-sections, if they can ask anything of it.
+    fn of(between: Between<'a>, grid: &FineGrid) -> Option<Self> {
+        let plan = StripPlan::of(between, grid)?;
+        let wide = plan.wider();
+        Some(Self { between, plan, tiles: plan.tiles(grid), wide, wide_tiles: wide.tiles(grid)? })
+    }
+
+    /// Whether it may ask anything of a tile as it is.
+    fn needs(&self, tile: TileIndex) -> bool {
+        self.tiles.is_some_and(|[low, high]| (0..2).all(|i| (low[i]..=high[i]).contains(&tile[i])))
+    }
 }
 
 impl Spots {
     /// The cross-sections, as they are now, of the strips in which these samples lie; nothing where there may be others in these strips. A strip is not found that
     /// has come to an end before the tile.
-    fn found_in<'a>(&self, strips: &[Strip<'a>]) -> Option<Vec<Option<Between<'a>>>> {
+    fn found_in<'a>(&self, strips: &[&Strip<'a>], tile: TileIndex) -> Option<Vec<Option<Between<'a>>>> {
         let mut found = vec![None; self.strips.len()];
         let mut next = 0;
         for strip in strips {
@@ -214,7 +249,7 @@ impl Spots {
                     found[next + at] = Some(strip.between);
                     next += at + 1;
                 }
-                None if strip.is_needed => return None,
+                None if strip.needs(tile) => return None,
                 None => {}
             }
         }
@@ -222,10 +257,10 @@ impl Spots {
     }
 
     /// The samples of a tile in these strips.
-    fn of(strips: &[Strip], grid: &FineGrid, tile: TileIndex) -> Self {
+    fn of(strips: &[&Strip], ground: &Ground, tile: TileIndex) -> Self {
         let mut found = Vec::new();
         for (i, strip) in strips.iter().enumerate() {
-            strip.spots(i as u16, grid, tile, &mut found);
+            strip.spots(i as u16, ground, tile, &mut found);
         }
         // In the order of samples: counted, then put in their places.
         let mut next = [0_u32; TILE * TILE + 1];
@@ -260,52 +295,101 @@ impl Spots {
         options: &EarthworkOptions,
         grid: &FineGrid,
     ) -> Vec<Hit> {
-        // A wall stands where it stands; elsewhere the natural ground itself ends the slope.
-        let spare = |[a, b]: Between<'_>, i: usize| {
-            if a.sides[i].wall || b.sides[i].wall { 0.0 } else { grid.step_m() }
-        };
-        let spares: Vec<[f64; 2]> =
-            strips.iter().map(|strip| [0, 1].map(|i| strip.map_or(0.0, |between| spare(between, i)))).collect();
+        let strips: Vec<Option<Bounds>> =
+            strips.iter().map(|strip| strip.map(|between| Bounds::of(between, bed_m, options, grid))).collect();
         let mut hits: Vec<Hit> = Vec::with_capacity(self.all.len());
         for spot in &self.all {
             if hits.last().is_some_and(|hit| hit.sample == spot.sample) {
                 continue;
             }
-            let strip = usize::from(spot.strip);
-            let Some([a, b]) = strips[strip] else { continue };
-            let (u, i) = (f64::from(spot.along), usize::from(spot.across_m < 0.0));
-            let (sa, sb) = (&a.sides[i], &b.sides[i]);
-            let lerp = |x: f64, y: f64| x + u * (y - x);
-            let across = f64::from(spot.across_m.abs());
-            if across > lerp(furthest(sa), furthest(sb)) + spares[strip][i] {
-                continue;
+            let Some(strip) = &strips[usize::from(spot.strip)] else { continue };
+            if let Some((beyond, [low, high])) = strip.at(spot) {
+                hits.push(Hit {
+                    sample: spot.sample,
+                    natural_m: spot.natural_m,
+                    beyond_m: beyond as f32,
+                    low_m: low as f32,
+                    high_m: high as f32,
+                });
             }
-            // A bridge or a pipe asks nothing of the ground, but no tree shall stand under it.
-            let [low, high] = if a.on_ground && b.on_ground {
-                let surface_m = lerp(a.height_m, b.height_m);
-                let design = Design { surface_m, bed_m, verge_m: options.verge_m, drop_m: options.verge_drop_m };
-                let runs = (lerp(sa.cut_run, sb.cut_run), lerp(sa.fill_run, sb.fill_run));
-                design.bounds(&Side { cut_run: runs.0, fill_run: runs.1, ..*sa }, across)
-            } else {
-                [f64::NEG_INFINITY, f64::INFINITY]
-            };
-            let beyond_m = (across - sa.half_width_m) as f32;
-            hits.push(Hit { sample: spot.sample, beyond_m, low_m: low as f32, high_m: high as f32 });
         }
         hits.shrink_to_fit();
         hits
     }
 }
 
+/// What a strip asks of its samples; what has two numbers goes evenly from the first section to the second.
+struct Bounds {
+    /// Whether it shapes the ground: a bridge or a pipe asks nothing of it, but no tree shall stand under them.
+    shapes: bool,
+    surface_m: [f64; 2],
+    /// The rest of the design, with no height yet.
+    design: Design,
+    /// Left and right.
+    sides: [SideBounds; 2],
+}
+
+struct SideBounds {
+    half_width_m: f64,
+    reach_m: [f64; 2],
+    fill: [f64; 2],
+    cut: [f64; 2],
+}
+
+impl Bounds {
+    fn of([a, b]: Between<'_>, bed_m: f64, options: &EarthworkOptions, grid: &FineGrid) -> Self {
+        let side = |i: usize| {
+            let (a, b) = (&a.sides[i], &b.sides[i]);
+            // A wall stands where it stands; elsewhere the natural ground itself ends the slope.
+            let spare = if a.wall || b.wall { 0.0 } else { grid.step_m() };
+            let [[fill_a, cut_a], [fill_b, cut_b]] = [a.slopes(), b.slopes()];
+            SideBounds {
+                half_width_m: a.half_width_m,
+                reach_m: [furthest(a) + spare, furthest(b) + spare],
+                fill: [fill_a, fill_b],
+                cut: [cut_a, cut_b],
+            }
+        };
+        Self {
+            shapes: a.on_ground && b.on_ground,
+            surface_m: [a.height_m, b.height_m],
+            design: Design { surface_m: 0.0, bed_m, verge_m: options.verge_m, drop_m: options.verge_drop_m },
+            sides: [side(0), side(1)],
+        }
+    }
+
+    /// How far beyond the edge of what is laid a sample is, and its lowest and highest height; nothing where the strip does not reach it.
+    #[inline]
+    fn at(&self, spot: &Spot) -> Option<(f64, [f64; 2])> {
+        let u = f64::from(spot.along);
+        let lerp = |[from, to]: [f64; 2]| from + u * (to - from);
+        let side = &self.sides[usize::from(spot.across_m < 0.0)];
+        let across = f64::from(spot.across_m.abs());
+        if across > lerp(side.reach_m) {
+            return None;
+        }
+        let beyond = across - side.half_width_m;
+        let bounds = if self.shapes {
+            let design = Design { surface_m: lerp(self.surface_m), ..self.design };
+            design.bounds(beyond, [lerp(side.fill), lerp(side.cut)])
+        } else {
+            [f64::NEG_INFINITY, f64::INFINITY]
+        };
+        Some((beyond, bounds))
+    }
+}
+
 impl Strip<'_> {
     /// Its samples on a tile, of which it is the strip with this number.
-    fn spots(&self, strip: u16, grid: &FineGrid, tile: TileIndex, found: &mut Vec<Spot>) {
+    fn spots(&self, strip: u16, ground: &Ground, tile: TileIndex, found: &mut Vec<Spot>) {
+        let grid = ground.grid();
+        let Some(reach) = self.wide.reached(grid) else { return };
         let [(a, left_a), (b, left_b)] = self.wide.between;
         let within = |[from, to]: [usize; 2], tile: u32| {
             let first = tile as usize * TILE;
             [from.max(first), to.min(first + TILE - 1)]
         };
-        let [columns, rows] = [within(self.wide_reach[0], tile[0]), within(self.wide_reach[1], tile[1])];
+        let [columns, rows] = [within(reach[0], tile[0]), within(reach[1], tile[1])];
         let along = |left: Vec2| Vec2::new(left.y, -left.x);
         let (ta, tb) = (along(left_a), along(left_b));
         // Of each row, whether what lies beyond a section towards east is wanted, and how its line slants.
@@ -347,7 +431,8 @@ impl Strip<'_> {
                 let across = off.hypot2().sqrt();
                 let (_, sample) = grid.tile_of([column, row]);
                 let across_m = if is_right { -across } else { across } as f32;
-                found.push(Spot { sample, strip, along: u as f32, across_m });
+                let natural_m = ground.natural_at([column, row]) as f32;
+                found.push(Spot { sample, strip, along: u as f32, across_m, natural_m });
             }
         }
     }

@@ -77,9 +77,10 @@ impl FineGrid {
         let range = |values: &dyn Fn(&Point) -> f64, corner: f64, step: f64, count: usize| {
             let low = places.iter().map(values).fold(f64::INFINITY, f64::min);
             let high = places.iter().map(values).fold(f64::NEG_INFINITY, f64::max);
-            let (low, high) = (((low - corner) / step).ceil(), ((high - corner) / step).floor());
-            let last = (count - 1) as f64;
-            (high >= 0.0 && low <= last && low <= high).then(|| [low.max(0.0) as usize, high.min(last) as usize])
+            // Up to the next whole number from the low end, and down to it from the high one.
+            let (low, high) = (-floored((corner - low) / step), floored((high - corner) / step));
+            let last = (count - 1) as i64;
+            (high >= 0 && low <= last && low <= high).then(|| [low.max(0) as usize, high.min(last) as usize])
         };
         let columns = range(&|p| p.x, self.corner.x, self.step.x, self.size[0])?;
         let rows = range(&|p| p.y, self.corner.y, self.step.y, self.size[1])?;
@@ -104,6 +105,12 @@ impl FineGrid {
         let sample = usize::from(sample);
         [tile[0] as usize * TILE + sample % TILE, tile[1] as usize * TILE + sample / TILE]
     }
+}
+
+/// The whole number at or below `x`; faster than by what every processor has.
+fn floored(x: f64) -> i64 {
+    let whole = x as i64;
+    whole.saturating_sub(i64::from((whole as f64) > x))
 }
 
 /// The shaped samples of one tile.
