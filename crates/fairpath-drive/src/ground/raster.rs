@@ -133,7 +133,8 @@ pub(crate) fn corridor(
         let strips: Vec<&Strip> = reaching.iter().map(|(_, strip)| &strips[*strip]).collect();
         let kept = corridor.spots.get(&tile).and_then(|kept| Some((kept.clone(), kept.found_in(&strips, tile)?)));
         let (spots, places) = kept.unwrap_or_else(|| {
-            (Arc::new(Spots::of(&strips, ground, tile)), strips.iter().map(|strip| Some(strip.between)).collect())
+            let places = strips.iter().map(|strip| strip.at(tile)).collect();
+            (Arc::new(Spots::of(&strips, ground, tile)), places)
         });
         let hits = spots.bounded(&places, bed_m, options, grid);
         (spots, hits)
@@ -230,27 +231,23 @@ impl<'a> Strip<'a> {
         Some(Self { between, plan, tiles: plan.tiles(grid), wide, wide_tiles: wide.tiles(grid)? })
     }
 
-    /// Whether it may ask anything of a tile as it is.
-    fn needs(&self, tile: TileIndex) -> bool {
-        self.tiles.is_some_and(|[low, high]| (0..2).all(|i| (low[i]..=high[i]).contains(&tile[i])))
+    /// Its cross-sections if it may ask anything of a tile as it is.
+    fn at(&self, tile: TileIndex) -> Option<Between<'a>> {
+        let is_in = |[low, high]: [TileIndex; 2]| (0..2).all(|i| (low[i]..=high[i]).contains(&tile[i]));
+        self.tiles.is_some_and(is_in).then_some(self.between)
     }
 }
 
 impl Spots {
-    /// The cross-sections, as they are now, of the strips in which these samples lie; nothing where there may be others in these strips. A strip is not found that
-    /// has come to an end before the tile.
+    /// The cross-sections, as they are now, of the strips in which these samples lie, but for those of which the slopes end before the tile; nothing where there may be other samples.
     fn found_in<'a>(&self, strips: &[&Strip<'a>], tile: TileIndex) -> Option<Vec<Option<Between<'a>>>> {
         let mut found = vec![None; self.strips.len()];
         let mut next = 0;
         for strip in strips {
-            let at = self.strips[next..].iter().position(|own| own.between == strip.plan.between);
-            match at.filter(|at| self.strips[next + at].holds(&strip.plan)) {
-                Some(at) => {
-                    found[next + at] = Some(strip.between);
-                    next += at + 1;
-                }
-                None if strip.needs(tile) => return None,
-                None => {}
+            if let Some(between) = strip.at(tile) {
+                next += self.strips[next..].iter().position(|own| own.holds(&strip.plan))?;
+                found[next] = Some(between);
+                next += 1;
             }
         }
         Some(found)
@@ -259,8 +256,9 @@ impl Spots {
     /// The samples of a tile in these strips.
     fn of(strips: &[&Strip], ground: &Ground, tile: TileIndex) -> Self {
         let mut found = Vec::new();
-        for (i, strip) in strips.iter().enumerate() {
-            strip.spots(i as u16, ground, tile, &mut found);
+        // More strips than that on one tile would be nearer to each other than cross-sections are.
+        for (i, strip) in (0..=u16::MAX).zip(strips) {
+            strip.spots(i, ground, tile, &mut found);
         }
         // In the order of samples: counted, then put in their places.
         let mut next = [0_u32; TILE * TILE + 1];

@@ -77,10 +77,11 @@ impl FineGrid {
         let range = |values: &dyn Fn(&Point) -> f64, corner: f64, step: f64, count: usize| {
             let low = places.iter().map(values).fold(f64::INFINITY, f64::min);
             let high = places.iter().map(values).fold(f64::NEG_INFINITY, f64::max);
-            // Up to the next whole number from the low end, and down to it from the high one.
-            let (low, high) = (-floored((corner - low) / step), floored((high - corner) / step));
-            let last = (count - 1) as i64;
-            (high >= 0 && low <= last && low <= high).then(|| [low.max(0) as usize, high.min(last) as usize])
+            // Up to the next whole number from the low end, and down to it from the high one; without places there is neither.
+            let first = floored((corner - low) / step).saturating_neg();
+            let (end, last) = (floored((high - corner) / step), (count - 1) as i64);
+            (low <= high && end >= 0 && first <= last && first <= end)
+                .then(|| [first.max(0) as usize, end.min(last) as usize])
         };
         let columns = range(&|p| p.x, self.corner.x, self.step.x, self.size[0])?;
         let rows = range(&|p| p.y, self.corner.y, self.step.y, self.size[1])?;
@@ -128,5 +129,30 @@ impl Tile {
     #[inline]
     pub(crate) fn height(&self, sample: u16) -> Option<f32> {
         self.samples.binary_search_by_key(&sample, |s| s.0).ok().map(|i| self.samples[i].1)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_floored_as_the_standard_library_floors_them() {
+        for x in [0.0, -0.0, 0.5, -0.5, 1.0, -1.0, 7.999, -7.999, 1e15 + 0.5, -1e15 - 0.5] {
+            assert_eq!(floored(x), f64::floor(x) as i64, "{x}");
+        }
+        assert_eq!([floored(-1e300), floored(f64::INFINITY)], [i64::MIN, i64::MAX]);
+    }
+
+    #[test]
+    fn only_samples_in_the_box_are_around() {
+        let grid = FineGrid { corner: Point::new(10.0, 20.0), step: Vec2::new(2.0, 1.0), parts: 1, size: [5, 5] };
+        let around = |a: [f64; 2], b: [f64; 2]| grid.samples_around(&[Point::new(a[0], a[1]), Point::new(b[0], b[1])]);
+        assert_eq!(around([10.5, 20.0], [14.0, 23.9]), Some([[1, 2], [0, 3]]));
+        assert_eq!(around([-1e300, -5.0], [1e300, 100.0]), Some([[0, 4], [0, 4]]));
+        assert_eq!(around([10.5, 20.0], [11.5, 23.0]), None, "between two columns");
+        assert_eq!(around([18.1, 20.0], [30.0, 23.0]), None, "beside");
+        assert_eq!(around([f64::NAN, 20.0], [f64::NAN, 23.0]), None);
+        assert_eq!(grid.samples_around(&[]), None);
     }
 }
