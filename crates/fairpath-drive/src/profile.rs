@@ -14,6 +14,22 @@ pub struct Knot {
     pub grade: f64,
 }
 
+impl Knot {
+    /// Whether the piece from here to the next knot is anywhere steeper than this, whichever way.
+    pub(crate) fn is_steeper(&self, next: &Self, grade: f64) -> bool {
+        let h = next.station_m - self.station_m;
+        // The grade is a parabola, within what it has at both ends and this (its Bézier points).
+        let middle = 3.0 * (next.height_m - self.height_m) / h - self.grade - next.grade;
+        let ends = self.grade.abs().max(next.grade.abs());
+        if ends > grade || middle.abs() <= grade {
+            return ends > grade;
+        }
+        let [by, bend] = [middle - self.grade, self.grade - 2.0 * middle + next.grade];
+        let turns = -by / bend;
+        turns > 0.0 && turns < 1.0 && (self.grade + by * turns).abs() > grade
+    }
+}
+
 /// Why knots are no profile.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
@@ -196,19 +212,6 @@ impl Profile {
         [p.height_m, p.grade, c, d]
     }
 
-    /// How steep a piece is where it is steepest, whichever way.
-    ///
-    /// # Panics
-    /// When there is no such piece.
-    #[must_use]
-    pub(crate) fn steepness(&self, piece: usize) -> f64 {
-        let [p, q] = [self.knots[piece], self.knots[piece + 1]];
-        let [_, _, c, d] = self.cubic(piece);
-        let turns = -c / (3.0 * d);
-        let inner = if turns > 0.0 && turns < q.station_m - p.station_m { p.grade + c * turns } else { p.grade };
-        p.grade.abs().max(q.grade.abs()).max(inner.abs())
-    }
-
     /// Where it is steepest within a range, and the grade there.
     #[must_use]
     pub fn steepest(&self, [from_m, to_m]: [f64; 2]) -> (f64, f64) {
@@ -309,5 +312,33 @@ impl Profile {
         }
         knots.extend(self.knots.iter().copied().filter(|k| k.station_m - after > LEAST_PIECE_M));
         Self::new(knots)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn a_piece_is_steeper_where_its_samples_are(
+            length in 0.1..50.0_f64, rise in -5.0..5.0_f64, grades in [-0.5..0.5_f64, -0.5..0.5_f64], limit in 0.01..1.0_f64,
+        ) {
+            let from = Knot { station_m: 100.0, height_m: 7.0, grade: grades[0] };
+            let to = Knot { station_m: 100.0 + length, height_m: 7.0 + rise, grade: grades[1] };
+            let profile = Profile::new(vec![from, to]).unwrap();
+            let steepest = (0..=1000)
+                .map(|i| profile.at(100.0 + length * f64::from(i) / 1000.0).grade.abs())
+                .fold(0.0, f64::max);
+            // Between two samples it may be a little steeper.
+            let slack = 1e-4 * (1.0 + rise.abs() / length);
+            if steepest > limit + 1e-9 {
+                prop_assert!(from.is_steeper(&to, limit), "{steepest} of {limit}");
+            }
+            if steepest < limit - slack {
+                prop_assert!(!from.is_steeper(&to, limit), "{steepest} of {limit}");
+            }
+        }
     }
 }

@@ -41,13 +41,18 @@ impl<'a> Beam<'a> {
 
     /// The curve for a stiffness of each interval; see [`smoothed`].
     pub(crate) fn bent(&self, stiffness_m3: &[f64]) -> Result<Profile, ProfileError> {
+        Profile::new(self.knots(stiffness_m3)?)
+    }
+
+    /// The same as knots, of which nothing is checked yet.
+    pub(crate) fn knots(&self, stiffness_m3: &[f64]) -> Result<Vec<Knot>, ProfileError> {
         let Self { points, yielding, lengths: h, inverse } = self;
         let n = points.len();
         if stiffness_m3.len() != n - 1 || !stiffness_m3.iter().all(is_positive) {
             return Err(ProfileError::Stiffness { intervals: n - 1, given: stiffness_m3.len() });
         }
         if n == 2 {
-            return Profile::catmull_rom(points);
+            return Ok(Profile::catmull_rom(points)?.knots().to_vec());
         }
         let flexibility: Vec<f64> = h.iter().zip(stiffness_m3).map(|(h, k)| h / k).collect();
         // Green and Silverman's Q: the change of grade at each inner point is this combination of three heights.
@@ -82,17 +87,18 @@ impl<'a> Beam<'a> {
             points[i][1] - push * yielding[i]
         };
         let heights: Vec<f64> = (0..n).map(height).collect();
+        const SIXTH: f64 = 1.0 / 6.0;
         let knot = |i: usize| {
             // From the piece beside it.
             let grade = if i + 1 < n {
-                (heights[i + 1] - heights[i]) * inverse[i] - flexibility[i] * (2.0 * moment(i) + moment(i + 1)) / 6.0
+                (heights[i + 1] - heights[i]) * inverse[i] - flexibility[i] * (2.0 * moment(i) + moment(i + 1)) * SIXTH
             } else {
                 (heights[i] - heights[i - 1]) * inverse[i - 1]
-                    + flexibility[i - 1] * (moment(i - 1) + 2.0 * moment(i)) / 6.0
+                    + flexibility[i - 1] * (moment(i - 1) + 2.0 * moment(i)) * SIXTH
             };
             Knot { station_m: points[i][0], height_m: heights[i], grade }
         };
-        Profile::new((0..n).map(knot).collect())
+        Ok((0..n).map(knot).collect())
     }
 }
 

@@ -229,18 +229,16 @@ struct Dirty {
 impl Dirty {
     /// Adds the tiles of which a path asks something else than before.
     fn compare(&mut self, old: Option<&Corridor>, new: Option<&Corridor>) {
-        let all: BTreeSet<TileIndex> = [old, new].into_iter().flatten().flat_map(|c| c.hits.keys()).copied().collect();
-        for tile in all {
-            let [before, now] = [old, new].map(|corridor| corridor.and_then(|c| c.hits.get(&tile)));
-            let same = match (before, now) {
-                (Some(a), Some(b)) => Arc::ptr_eq(a, b) || a == b,
-                (a, b) => a.is_none() && b.is_none(),
-            };
-            if !same {
-                self.shaped.insert(tile);
-                if !old.zip(new).is_some_and(|(old, new)| new.clears_as(old, tile)) {
-                    self.clear(tile, before, now);
-                }
+        let [mut before, mut now] =
+            [old, new].map(|corridor| corridor.into_iter().flat_map(|c| c.hits.iter()).peekable());
+        while let Some(tile) = before.peek().into_iter().chain(now.peek()).map(|(tile, _)| **tile).min() {
+            let [a, b] = [&mut before, &mut now].map(|hits| Some(hits.next_if(|(at, _)| **at == tile)?.1));
+            if a.zip(b).is_some_and(|(a, b)| Arc::ptr_eq(a, b) || a == b) {
+                continue;
+            }
+            self.shaped.insert(tile);
+            if !old.zip(new).is_some_and(|(old, new)| new.clears_as(old, tile)) {
+                self.clear(tile, a, b);
             }
         }
     }

@@ -278,7 +278,7 @@ struct Place {
 fn places(path: &Path, structures: &[Structure]) -> Vec<(Place, Option<Carrier>)> {
     let course = Course::new(&path.plan);
     let segments = path.plan.segments();
-    let mut cuts_of: Vec<Vec<f64>> = segments.iter().map(even_cuts).collect();
+    let mut cuts_of: Vec<Vec<f64>> = parallel::map(segments, even_cuts);
     for station in structures.iter().flat_map(|s| [s.from_m, s.to_m]) {
         let (segment, s) = course.locate(station);
         // Stations have other last digits where the path became longer before them.

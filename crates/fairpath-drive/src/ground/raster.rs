@@ -101,7 +101,9 @@ pub(crate) fn corridor(
     ground: &Ground,
 ) -> Corridor {
     let grid = ground.grid();
-    let (mut corridor, which) = match before {
+    // Where most is new, all tiles are asked anew, which costs less than to tell which.
+    let is_mostly_new = 2 * sections.new.len() > sections.all.len();
+    let (mut corridor, which) = match before.filter(|_| !is_mostly_new) {
         Some((old, corridor)) => {
             let reached = |all: &[CrossSection], changed: &Range<usize>| -> Vec<TileIndex> {
                 // A section bounds the strips on both sides of it.
@@ -117,7 +119,9 @@ pub(crate) fn corridor(
         }
         None => (Corridor::default(), None),
     };
-    let strips: Vec<Strip> = sections.all.windows(2).filter_map(|pair| Strip::of([&pair[0], &pair[1]], grid)).collect();
+    let pairs: Vec<&[CrossSection]> = sections.all.windows(2).collect();
+    let strips: Vec<Strip> =
+        parallel::map(&pairs, |pair| Strip::of([&pair[0], &pair[1]], grid)).into_iter().flatten().collect();
     // The strips that may reach each tile, ascending.
     let mut reaching: Vec<(TileIndex, usize)> = Vec::new();
     for (i, strip) in strips.iter().enumerate() {
@@ -131,7 +135,8 @@ pub(crate) fn corridor(
     let asked = parallel::map(&reaching, |reaching| {
         let tile = reaching[0].0;
         let strips: Vec<&Strip> = reaching.iter().map(|(_, strip)| &strips[*strip]).collect();
-        let kept = corridor.spots.get(&tile).and_then(|kept| Some((kept.clone(), kept.found_in(&strips, tile)?)));
+        let kept = before.and_then(|(_, old)| old.spots.get(&tile));
+        let kept = kept.and_then(|kept| Some((kept.clone(), kept.found_in(&strips, tile)?)));
         let (spots, places) = kept.unwrap_or_else(|| {
             let places = strips.iter().map(|strip| strip.at(tile)).collect();
             (Arc::new(Spots::of(&strips, ground, tile)), places)
@@ -143,14 +148,14 @@ pub(crate) fn corridor(
         corridor.hits.remove(tile);
         corridor.spots.remove(tile);
     }
-    for (reaching, (spots, hits)) in reaching.into_iter().zip(asked) {
-        if !spots.all.is_empty() {
-            corridor.spots.insert(reaching[0].0, spots);
-        }
-        if !hits.is_empty() {
-            corridor.hits.insert(reaching[0].0, Arc::new(hits));
-        }
+    let (mut spots, mut hits) = (Vec::new(), Vec::new());
+    for (reaching, (own, asked)) in reaching.into_iter().zip(asked) {
+        let tile = reaching[0].0;
+        spots.extend((!own.all.is_empty()).then_some((tile, own)));
+        hits.extend((!asked.is_empty()).then(|| (tile, Arc::new(asked))));
     }
+    corridor.spots.append(&mut spots.into_iter().collect());
+    corridor.hits.append(&mut hits.into_iter().collect());
     corridor
 }
 

@@ -126,16 +126,16 @@ fn fair(path: &Path, points: &[[f64; 2]], spacings_m: &[f64]) -> Profile {
     let beam = Beam::new(points, &weights).expect(ASCENDING);
     loop {
         let stiffness: Vec<f64> = waves.iter().map(|wave| fourth_power(wave / TAU) / STEP_M).collect();
-        let profile = beam.bent(&stiffness).expect(ASCENDING);
+        let knots = beam.knots(&stiffness).expect(ASCENDING);
         let mut is_longer = false;
-        for (piece, wave) in waves.iter_mut().enumerate() {
-            if *wave < longest && profile.steepness(piece) > path.section.max_grade {
+        for (wave, ends) in waves.iter_mut().zip(knots.windows(2)) {
+            if *wave < longest && ends[0].is_steeper(&ends[1], path.section.max_grade) {
                 *wave = (*wave * LONGER).min(longest);
                 is_longer = true;
             }
         }
         if !is_longer {
-            return profile;
+            return Profile::new(knots).expect(ASCENDING);
         }
         // What is stiff on one side and soft on the other would bend at once: waves become shorter little by little.
         let width = |piece: usize| points[piece + 1][0] - points[piece][0];
