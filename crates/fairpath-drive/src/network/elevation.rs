@@ -5,7 +5,7 @@ use super::path::{HeightMode, Path, PathId};
 use crate::groups::Groups;
 use crate::heights::{CrossingHeights, HeightError, HeightPoint, Over, PathPoints};
 use crate::profile::{Knot, Profile, ProfileError};
-use crate::smoothing::{Beam, smoothed};
+use crate::smoothing::{Beam, LEAST_AROUND, smoothed};
 use crate::terrain::{Heightfield, Waters};
 use fairpath_curve::{Point, Segment};
 use fairpath_fit::parallel;
@@ -45,6 +45,7 @@ pub(crate) fn alone(path: &Path, ground: &Heightfield, waters: &Waters) -> Profi
     let Looks { points, spacings_m } = looks(path, ground, waters);
     let whole = |profile: &Profile| if closed { closed_up(profile, length) } else { ends_exactly(profile, length) };
     let profile = if path.heights == HeightMode::Draped {
+        let points = if closed { thrice(&points, length, |point, turn| [point[0] + turn, point[1]]) } else { points };
         Profile::catmull_rom(&points).expect(ASCENDING)
     } else {
         fair(path, &points, &spacings_m)
@@ -70,7 +71,7 @@ const ASCENDING: &str = "stations ascend and heights are finite";
 
 /// Where the ground was looked at along a path.
 struct Looks {
-    /// Station and height, m, ascending; around a closed path a little further at both ends, so that it is as fair there as elsewhere.
+    /// Station and height, m, ascending.
     points: Vec<[f64; 2]>,
     /// Of what length of the path each is the middle, m; an end of the path stands for none.
     spacings_m: Vec<f64>,
@@ -103,10 +104,6 @@ fn looks(path: &Path, ground: &Heightfield, waters: &Waters) -> Looks {
         if own.len() < 2 {
             own = [0.25, 0.75].map(|t| ([t * length, height(path.plan.point_at(t * length))], 0.5 * length)).to_vec();
         }
-        let reach = (2.0 * LONGEST_WAVE_M.min(length)).min(length);
-        let shifted = |turn: f64| own.iter().map(move |&([s, z], spacing)| ([s + turn * length, z], spacing));
-        let is_near = |&([s, _], _): &([f64; 2], f64)| s > -reach && s < length + reach;
-        own = shifted(-1.0).chain(shifted(0.0)).chain(shifted(1.0)).filter(is_near).collect();
     } else {
         let end = |station: f64| ([station, height(path.plan.point_at(station))], 0.0);
         own.insert(0, end(0.0));
@@ -116,14 +113,36 @@ fn looks(path: &Path, ground: &Heightfield, waters: &Waters) -> Looks {
     Looks { points, spacings_m }
 }
 
+/// What there is along a closed path, and the same a turn before and a turn later.
+fn thrice<T>(once: &[T], length: f64, shifted: impl Fn(&T, f64) -> T) -> Vec<T> {
+    [-length, 0.0, length].iter().flat_map(|turn| once.iter().map(|x| shifted(x, *turn))).collect()
+}
+
 /// Heights made fair: waves are halved that the design speed does not like, and where that leaves the path too steep, longer ones, as long as that helps without leaving
 /// the ground altogether.
 fn fair(path: &Path, points: &[[f64; 2]], spacings_m: &[f64]) -> Profile {
     // A path begins and ends on the ground.
     let weights: Vec<f64> = spacings_m.iter().map(|s| if *s > 0.0 { s / STEP_M } else { END_WEIGHT }).collect();
+    if !path.plan.is_closed() {
+        return Profile::new(made_fair(path, &Beam::new(points, &weights).expect(ASCENDING))).expect(ASCENDING);
+    }
+    // A short one is gone round several times.
+    let turns = LEAST_AROUND.div_ceil(points.len());
+    let length = path.length_m();
+    let around = |turn: usize| points.iter().map(move |[s, z]| [s + turn as f64 * length, *z]);
+    let points: Vec<[f64; 2]> = (0..turns).flat_map(around).collect();
+    let weights = weights.repeat(turns);
+    let length = turns as f64 * length;
+    let mut knots = made_fair(path, &Beam::around(&points, &weights, length).expect(ASCENDING));
+    knots.pop();
+    let knots = thrice(&knots, length, |knot, turn| Knot { station_m: knot.station_m + turn, ..*knot });
+    Profile::new(knots).expect(ASCENDING)
+}
+
+/// The knots of a beam that is as stiff as it must be.
+fn made_fair(path: &Path, beam: &Beam) -> Vec<Knot> {
     let longest = LONGEST_WAVE_M.max(WAVE_M_PER_KMH * path.section.speed_kmh);
-    let mut waves = vec![WAVE_M_PER_KMH * path.section.speed_kmh; points.len() - 1];
-    let beam = Beam::new(points, &weights).expect(ASCENDING);
+    let mut waves = vec![WAVE_M_PER_KMH * path.section.speed_kmh; beam.intervals()];
     loop {
         let stiffness: Vec<f64> = waves.iter().map(|wave| fourth_power(wave / TAU) / STEP_M).collect();
         let knots = beam.knots(&stiffness).expect(ASCENDING);
@@ -135,15 +154,23 @@ fn fair(path: &Path, points: &[[f64; 2]], spacings_m: &[f64]) -> Profile {
             }
         }
         if !is_longer {
-            return Profile::new(knots).expect(ASCENDING);
+            return knots;
         }
         // What is stiff on one side and soft on the other would bend at once: waves become shorter little by little.
-        let width = |piece: usize| points[piece + 1][0] - points[piece][0];
-        for piece in 1..waves.len() {
-            waves[piece] = waves[piece].max(waves[piece - 1] - TAPER * width(piece));
-        }
-        for piece in (0..waves.len() - 1).rev() {
-            waves[piece] = waves[piece].max(waves[piece + 1] - TAPER * width(piece));
+        let width = |piece: usize| knots[piece + 1].station_m - knots[piece].station_m;
+        let last = waves.len() - 1;
+        // Around a closed path a second time, since what is before the first is the last.
+        for _ in 0..if path.plan.is_closed() { 2 } else { 1 } {
+            for piece in 1..=last {
+                waves[piece] = waves[piece].max(waves[piece - 1] - TAPER * width(piece));
+            }
+            for piece in (0..last).rev() {
+                waves[piece] = waves[piece].max(waves[piece + 1] - TAPER * width(piece));
+            }
+            if path.plan.is_closed() {
+                waves[0] = waves[0].max(waves[last] - TAPER * width(0));
+                waves[last] = waves[last].max(waves[0] - TAPER * width(last));
+            }
         }
     }
 }
