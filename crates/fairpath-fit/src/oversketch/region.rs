@@ -199,9 +199,11 @@ fn on_closed(
     };
     let length = curve.length();
     let ahead = (b - a).rem_euclid(length);
+    // As from the other end, to the bit.
+    let behind = if ahead > 0.0 { (a - b).rem_euclid(length) } else { length };
     let [s, e] = [ends[0].direction.dot(curve.tangent_at(a)), ends[1].direction.dot(curve.tangent_at(b))];
     let shorter_is_ahead = ahead <= 0.5 * length;
-    let shorter = ahead.min(length - ahead);
+    let shorter = ahead.min(behind);
     let follows = |forward: bool| if forward { s.min(e) > FOLLOWS } else { s.max(e) < -FOLLOWS };
     let drawn = sketch.length();
     let is_loop = shorter <= LOOP_OVERLAP.min(LOOP_SHARE * drawn);
@@ -210,13 +212,13 @@ fn on_closed(
     let attached = [true; 2];
     if is_loop && !nearer_longer && follows(!forward) {
         // A loop that comes back before it set out.
-        let (from, to) = if forward { (a + ahead, a) } else { (a, a - (length - ahead)) };
+        let (from, to) = if forward { (a + ahead, a) } else { (a, a - behind) };
         return Ok(Replaced { from, to, backward: forward, attached });
     }
     Ok(if forward {
         Replaced { from: a, to: a + ahead, backward: false, attached }
     } else {
-        Replaced { from: b, to: b + length - ahead, backward: true, attached }
+        Replaced { from: b, to: b + behind, backward: true, attached }
     })
 }
 

@@ -1,7 +1,7 @@
 //! What the end of a chain must meet: its own start if it is closed, a given pose if it is held there.
 
 use super::chain::{Chain, HEADING, KAPPA0, Piece, end};
-use super::recursion::{GAP_SCALE, STATE};
+use super::recursion::{STATE, size};
 use fairpath_curve::{Continuity, Kind};
 use std::f64::consts::TAU;
 
@@ -55,12 +55,12 @@ impl Closure {
         self.held.is_some()
     }
 
-    /// Weighted sum of the magnitudes of what is open.
+    /// How large the gap is there, px.
     pub(crate) fn misfit(&self, pieces: &[Piece]) -> f64 {
         if self.count == 0 {
             return 0.0;
         }
-        self.gap(pieces).iter().zip(GAP_SCALE).map(|(g, w)| g.abs() * w).sum()
+        size(self.gap(pieces))
     }
 }
 

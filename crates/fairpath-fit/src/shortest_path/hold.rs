@@ -4,7 +4,9 @@
 //! costs, which comes to the same.
 
 use super::candidates::Candidate;
-use super::chain::{Chain, KAPPA0, KAPPA1, LENGTH, Piece, Pin, end};
+use super::chain::{Chain, KAPPA0, KAPPA1, LENGTH, Measured, Piece, Pin, end};
+use super::merge::{Effort, merge};
+use super::refine::total;
 use super::transition::estimate_held;
 use crate::options::FitOptions;
 use crate::track::Track;
@@ -55,6 +57,40 @@ pub(super) fn give_freedom(chain: &mut Chain) {
 
 /// Freedoms beyond those that the ends take away, so that the curve can still follow its data.
 const SPARE: usize = 2;
+
+/// Splits the piece of a chain held at both ends that strays most, and merges anew, while the chain costs more than `enough` and that helps: for chains that are stiffer than their
+/// path looked. One after the other with their neighbours, as refinement splits, pieces come to less good ends and take longer.
+pub(super) fn soften(
+    chain: &mut Chain,
+    measured: Measured,
+    enough: f64,
+    options: &FitOptions,
+    effort: Effort,
+) -> Measured {
+    let mut measured = measured;
+    if chain.held.contains(&None) {
+        return measured;
+    }
+    for _ in 0..SPLITS {
+        let cost = total(chain, &measured, options);
+        let deviation = |k: &usize| measured.normals[*k].deviation(options);
+        let strays = (0..chain.pieces.len()).max_by(|a, b| deviation(a).total_cmp(&deviation(b)));
+        let Some(most) = strays.filter(|_| cost > enough) else { break };
+        let before = (chain.pieces.clone(), chain.joins.clone());
+        split(chain, most);
+        match merge(chain, effort) {
+            Some(softer) if total(chain, &softer, options) < cost => measured = softer,
+            _ => {
+                (chain.pieces, chain.joins) = before;
+                break;
+            }
+        }
+    }
+    measured
+}
+
+/// Most pieces that are split so.
+const SPLITS: usize = 3;
 
 /// Numbers that a merge can choose for the pieces of a chain, its start aside.
 fn freedom(chain: &Chain) -> usize {

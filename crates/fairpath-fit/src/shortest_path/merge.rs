@@ -7,7 +7,7 @@
 
 use super::chain::{Chain, HEADING, KAPPA0, KAPPA1, Measured, Q, end};
 use super::closing::Closure;
-use super::recursion::{CLOSED, GAP_SCALE, Held, OPEN, backward, forward, gap_before};
+use super::recursion::{CLOSED, Held, OPEN, backward, gap_before, go, size};
 use fairpath_curve::Kind;
 use std::f64::consts::TAU;
 
@@ -86,7 +86,7 @@ fn descend<const Z: usize>(
         let mut gain = None;
         let mut wanted = None;
         for _ in 0..4 {
-            let next_held = forward(chain, &old, &plan, step, &held);
+            let next_held = go(chain, &old, &plan, step, &held, &closure);
             let next = chain.measure_near(&now);
             // A full step leaves no gap, and no step opens one.
             let next_open = if step == 1.0 || open == 0.0 { 0.0 } else { gaps(chain) };
@@ -159,7 +159,7 @@ fn join_exactly<const Z: usize>(chain: &mut Chain, closure: &Closure, held: &mut
         }
         let plan = backward::<Z>(chain, &now, JOINING * (now.energy + 1.0), closure, held)?;
         let old = chain.pieces.clone();
-        let next = forward(chain, &old, &plan, 1.0, held);
+        let next = go(chain, &old, &plan, 1.0, held, closure);
         // What is held stays held: here only the joins matter.
         for (h, n) in held.iter_mut().zip(next) {
             for (h, n) in h.iter_mut().zip(n) {
@@ -170,11 +170,9 @@ fn join_exactly<const Z: usize>(chain: &mut Chain, closure: &Closure, held: &mut
     (gaps(chain) == 0.0 && closure.misfit(&chain.pieces) < 1e-9).then_some(true)
 }
 
-/// What is open at the joins between neighbours: the weighted sum of magnitudes.
+/// What is open at the joins between neighbours, in sum.
 fn gaps(chain: &Chain) -> f64 {
-    (1..chain.pieces.len())
-        .map(|k| gap_before(chain, &chain.pieces, k).iter().zip(GAP_SCALE).map(|(g, w)| g.abs() * w).sum::<f64>())
-        .sum()
+    (1..chain.pieces.len()).map(|k| size(gap_before(chain, &chain.pieces, k))).sum()
 }
 
 /// Puts the start of a held chain where it is held; the recursion leaves it there.

@@ -171,6 +171,7 @@ fn attempt(
     let mut best: Option<(Path, Option<Merged>)> = None;
     let cost_of = |merged: &Option<Merged>| merged.as_ref().map_or(f64::INFINITY, |m| m.cost);
     let is_held = track.held.iter().any(Option::is_some);
+    let limit = if is_held { HELD_SURPRISE } else { SURPRISE };
     for _ in 0..if exact_ring || is_held { SURPRISED_ROUNDS } else { 1 } {
         observer.step(Step::Search);
         let Some(path) = parallel::within(|| search::search(&mut graph, &mut verifier, below)) else { break };
@@ -179,7 +180,7 @@ fn attempt(
         let cost = cost_of(&merged);
         // Joins are verified two pieces at a time. What that misses in a ring of few pieces, or in a few between held ends, shows in the
         // whole: then its joins bear what it costs more, and another path may be better.
-        let surprise = cost > SURPRISE * path.cost;
+        let surprise = cost > limit * path.cost;
         if surprise {
             graph.burden(&path, cost - path.cost);
         }
@@ -217,6 +218,9 @@ const SURPRISED_ROUNDS: usize = 3;
 
 /// A merged path that costs more than this many times what its path did was misjudged.
 const SURPRISE: f64 = 1.5;
+
+/// The same where ends are held, which makes most paths dearer than two pieces at a time tell: another path is seldom better.
+const HELD_SURPRISE: f64 = 3.0;
 
 /// Options under which every stroke has a curve that is not far off: what was forbidden is dear instead.
 pub(crate) fn loosened(options: &FitOptions) -> FitOptions {
@@ -256,6 +260,7 @@ fn merge_path(graph: &Graph, path: &Path, track: &Track, options: &FitOptions) -
         // Chosen by the coarse points, fitted to all.
         let mut coarse = along(&track.coarse, joins);
         let measured = merge(&mut coarse, FINAL)?;
+        let measured = hold::soften(&mut coarse, measured, SURPRISE * path.cost, options, FINAL);
         let measured = refine::refine(&mut coarse, measured, options, FINAL)?;
         let before = refine::total(&coarse, &measured, options);
         let smooth = track.shape == Shape::Ring && !coarse.joins.contains(&Continuity::G0);

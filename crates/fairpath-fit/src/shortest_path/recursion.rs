@@ -22,7 +22,7 @@ pub(crate) const OPEN: usize = STATE;
 pub(crate) const CLOSED: usize = STATE + 8;
 
 /// How a heading and a curvature gap compare to one in position, px and px².
-pub(crate) const GAP_SCALE: [f64; 4] = [1.0, 1.0, 20.0, 200.0];
+const GAP_SCALE: [f64; 4] = [1.0, 1.0, 20.0, 200.0];
 
 /// Weight of the square of an open gap, px.
 const GAP_STIFFNESS: f64 = 30.0;
@@ -55,15 +55,34 @@ pub(crate) fn gap_before(chain: &Chain, pieces: &[Piece], k: usize) -> [f64; 4] 
     std::array::from_fn(|i| if taken[i] == Role::State { arrived[i] - pieces[k].q[i] } else { 0.0 })
 }
 
+/// How large a gap is, px. It does not depend on how the chain lies on the page.
+pub(super) fn size(gap: [f64; 4]) -> f64 {
+    (gap[0] * gap[0] + gap[1] * gap[1]).sqrt() + gap[2].abs() * GAP_SCALE[2] + gap[3].abs() * GAP_SCALE[3]
+}
+
+/// How fast something falls at most while gaps grow in [`size`], given its slopes by them.
+fn steepest(slopes: [f64; 4]) -> f64 {
+    let along = (slopes[0] * slopes[0] + slopes[1] * slopes[1]).sqrt();
+    along.max(slopes[2].abs() / GAP_SCALE[2]).max(slopes[3].abs() / GAP_SCALE[3])
+}
+
 /// What a backward pass decides.
 pub(crate) struct Plan<const Z: usize> {
     laws: Vec<Law<Z>>,
+    /// Cost to go from the start of the chain.
+    value: Value<Z>,
+    aim: Aim,
+    /// The largest slope of the cost by a gap, in units of [`GAP_SCALE`].
+    pub(crate) pull: f64,
+}
+
+/// What a full step decides before it goes along the chain.
+#[derive(Clone, Copy)]
+struct Aim {
     /// Change of the first state.
     first: [f64; 4],
     /// Multipliers of closure.
     multipliers: [f64; 4],
-    /// The largest slope of the cost by a gap, in units of [`GAP_SCALE`].
-    pub(crate) pull: f64,
 }
 
 /// One Riccati recursion from the last piece to the first.
@@ -120,19 +139,15 @@ pub(crate) fn backward<const Z: usize>(
             for i in 0..Z {
                 value.g[i] += shift[i];
             }
-            for i in 0..4 {
-                if taken[i] == Role::State {
-                    pull = pull.max(value.g[i].abs() / GAP_SCALE[i]);
-                }
-            }
+            let slopes = std::array::from_fn(|i| if taken[i] == Role::State { value.g[i] } else { 0.0 });
+            pull = pull.max(steepest(slopes));
         }
         value = Stage::new(&now.normals[k], &f, &value).eliminate(chain, k, damping, &held[k], &value, &mut laws[k])?;
     }
-    let (first, multipliers) = first_state(chain, &mut value, damping, closure)?;
-    for i in 0..closure.count {
-        pull = pull.max(multipliers[i].abs() / GAP_SCALE[i]);
-    }
-    Some(Plan { laws, first, multipliers, pull })
+    begin(chain, &mut value, damping, closure);
+    let aim = aim(chain, &value, closure, [0.0; 4])?;
+    pull = pull.max(steepest(aim.multipliers));
+    Some(Plan { laws, value, aim, pull })
 }
 
 /// The quadratic model of a stage: over the piece's own parameters, and how these are coupled with what is carried.
@@ -273,15 +288,9 @@ const WORTH_LETTING_GO: f64 = 1e-2;
 /// Stiffness that every control has by itself, against pieces that no datum holds.
 const FLOOR: [f64; Q] = [1e-6, 1e-6, 1e-3, 1e-1, 1e-1, 1e-6];
 
-/// The best change of the first state, and the multipliers.
-fn first_state<const Z: usize>(
-    chain: &Chain,
-    value: &mut Value<Z>,
-    damping: f64,
-    closure: &Closure,
-) -> Option<([f64; 4], [f64; 4])> {
-    let count = closure.count;
-    if count > 0 {
+/// Makes the cost to go one of the first state alone, and of the multipliers.
+fn begin<const Z: usize>(chain: &Chain, value: &mut Value<Z>, damping: f64, closure: &Closure) {
+    if closure.count > 0 {
         // The first state is also what the last must meet.
         for i in 0..4 {
             for c in 0..Z {
@@ -299,6 +308,11 @@ fn first_state<const Z: usize>(
         let reach = reach(&chain.pieces[0], i);
         value.h[i][i] += damping / (reach * reach) + FLOOR[i];
     }
+}
+
+/// The best change of the first state and the multipliers where closure has to make up for `more` than the model knows.
+fn aim<const Z: usize>(chain: &Chain, value: &Value<Z>, closure: &Closure, more: [f64; 4]) -> Option<Aim> {
+    let count = closure.count;
     let roles = roles(chain, 0);
     let mut free: Vec<usize> = (0..4).filter(|&i| roles[i] == Role::State).collect();
     let mut held = [0.0; 4];
@@ -341,7 +355,7 @@ fn first_state<const Z: usize>(
                         -value.h[8 + l][8 + m] - (0..4).map(|i| value.h[8 + l][i] * by_multiplier[m][i]).sum::<f64>();
                 }
                 a[l][l] *= 1.0 + 1e-12;
-                b[l] = value.g[8 + l] + (0..4).map(|i| value.h[8 + l][i] * (still[i] + held[i])).sum::<f64>();
+                b[l] = value.g[8 + l] + more[l] + (0..4).map(|i| value.h[8 + l][i] * (still[i] + held[i])).sum::<f64>();
             }
             if !cholesky(&mut a, count, 1e-14) {
                 return None;
@@ -364,20 +378,72 @@ fn first_state<const Z: usize>(
             held[KAPPA0] = kappa.clamp(low, high) - chain.pieces[0].q[KAPPA0];
             continue;
         }
-        return Some((z, multipliers));
+        return Some(Aim { first: z, multipliers });
     }
 }
 
-/// The chain that the plan leads to from the pieces `old`, and which controls it found at their bounds. A full step closes all
-/// gaps; a shorter one leaves its share of them open.
-pub(crate) fn forward<const Z: usize>(
+/// Most corrections of a step.
+const CORRECTIONS: usize = 6;
+
+/// A step may leave closure open by this, px; and a correction must bring it down by this factor to be worth another.
+const CLOSED_ENOUGH: f64 = 1e-7;
+const CONTRACTION: f64 = 0.5;
+
+/// Goes a step of the plan from the pieces `old`; which controls are at their bounds then. A full step closes all gaps; a shorter one leaves
+/// its share of them open.
+///
+/// Where the end goes bends away from where the model sees it: over the length of a chain that is far more than a gap may cost, and would forbid all
+/// but small steps (Maratos' effect). So the step is aimed anew by what it missed the end by, with the same laws (a second-order correction:
+/// Nocedal and Wright, Numerical Optimization, section 18.3, repeated).
+pub(crate) fn go<const Z: usize>(
     chain: &mut Chain,
     old: &[Piece],
     plan: &Plan<Z>,
     step: f64,
     held: &[Held],
+    closure: &Closure,
 ) -> Vec<Held> {
-    let Plan { laws, first, multipliers, .. } = plan;
+    let mut at_bound = forward(chain, old, plan, &plan.aim, step, held);
+    if closure.count == 0 {
+        return at_bound;
+    }
+    let wanted = closure.gap(old).map(|gap| (1.0 - step) * gap);
+    let missed = |chain: &Chain| -> [f64; 4] {
+        let gap = closure.gap(&chain.pieces);
+        std::array::from_fn(|i| gap[i] - wanted[i])
+    };
+    let mut more = [0.0; 4];
+    let mut miss = missed(chain);
+    for _ in 0..CORRECTIONS {
+        if size(miss) < CLOSED_ENOUGH {
+            break;
+        }
+        for i in 0..4 {
+            more[i] += miss[i] / step;
+        }
+        let Some(aim) = aim(chain, &plan.value, closure, more) else { break };
+        let before = chain.pieces.clone();
+        let next = forward(chain, old, plan, &aim, step, held);
+        let left = missed(chain);
+        if size(left) > CONTRACTION * size(miss) || !size(left).is_finite() {
+            chain.pieces = before;
+            break;
+        }
+        (at_bound, miss) = (next, left);
+    }
+    at_bound
+}
+
+/// The chain that a step leads to, aimed so, and which controls it found at their bounds.
+fn forward<const Z: usize>(
+    chain: &mut Chain,
+    old: &[Piece],
+    plan: &Plan<Z>,
+    Aim { first, multipliers }: &Aim,
+    step: f64,
+    held: &[Held],
+) -> Vec<Held> {
+    let laws = &plan.laws;
     let mut at_bound: Vec<Held> = vec![[false; Q]; old.len()];
     let mut state = [0.0; 4];
     for i in 0..4 {

@@ -74,7 +74,8 @@ fn refitting_after_an_edit_stays_near_the_edited_curve() {
         assert!(!distances.is_empty(), "{edit}");
         let largest = distances.iter().copied().fold(0.0, f64::max);
         eprintln!("{edit:12} {} curves, largest distance {largest:.2} px", distances.len());
-        assert!(largest < 6.0, "{edit}: {distances:?}");
+        // As far as a fit is from its stroke without a word about it.
+        assert!(largest < 7.0, "{edit}: {distances:?}");
     }
 }
 
