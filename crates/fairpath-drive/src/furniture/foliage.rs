@@ -6,7 +6,7 @@
 use crate::document::FoliageRegion;
 use crate::ground::{FineGrid, Ground, Hits, TileIndex};
 use crate::terrain::{Waters, inside};
-use fairpath_curve::{Point, Vec2};
+use fairpath_curve::{Point, Rect, Vec2};
 use std::sync::Arc;
 
 /// No tree stands nearer to another, m.
@@ -45,21 +45,27 @@ pub(crate) fn trees_on(
 ) -> Vec<Tree> {
     let grid = ground.grid();
     let [low, high] = tile_box(grid, tile);
+    let bounds = Rect::new(low.x, low.y, high.x, high.y);
+    if !regions.iter().any(|region| touches(&region.outline, bounds)) {
+        return Vec::new();
+    }
     let origin = ground.natural().corner();
     let cell = |x: f64, from: f64| ((x - from) / APART_M).floor() as i64;
     let first = [cell(low.x, origin.x) - 1, cell(low.y, origin.y) - 1];
     let size = [cell(high.x, origin.x) - first[0] + 2, cell(high.y, origin.y) - first[1] + 2].map(|n| n as usize);
     // The lots of all cells on the tile and of one more around it.
-    let lots: Vec<Lot> = (0..size[0] * size[1])
-        .flat_map(|k| {
-            let at = [first[0] + (k % size[0]) as i64, first[1] + (k / size[0]) as i64];
-            (0..LOTS).map(move |lot| Lot::new(at, lot, seed, origin))
-        })
-        .collect();
+    let mut lots = Vec::with_capacity(size[0] * size[1] * LOTS as usize);
+    for row in 0..size[1] {
+        for column in 0..size[0] {
+            let at = [first[0] + column as i64, first[1] + row as i64];
+            lots.extend((0..LOTS).map(|lot| Lot::new(at, lot, seed, origin)));
+        }
+    }
     let of_cell = |column: usize, row: usize| {
         let from = (row * size[0] + column) * LOTS as usize;
         &lots[from..from + LOTS as usize]
     };
+    let densest = regions.iter().map(|region| region.density).fold(0.0, f64::max);
     let mut found = Vec::new();
     for row in 1..size[1] - 1 {
         for column in 1..size[0] - 1 {
@@ -68,7 +74,7 @@ pub(crate) fn trees_on(
                 if !here || !ground.natural().contains(own.place) {
                     continue;
                 }
-                if !(own.wish < density_at(regions, own.place)) {
+                if !(own.wish < densest && own.wish < density_at(regions, own.place)) {
                     continue;
                 }
                 let beats_own =
@@ -106,6 +112,13 @@ fn tile_box(grid: &FineGrid, tile: TileIndex) -> [Point; 2] {
     let low = grid.place(grid.sample_of(tile, 0));
     let next = [tile[0] + 1, tile[1] + 1];
     [low, grid.place(grid.sample_of(next, 0))]
+}
+
+/// Whether an outline may have anything of a box within it.
+fn touches(outline: &[Point], bounds: Rect) -> bool {
+    let Some((first, rest)) = outline.split_first() else { return false };
+    let around = rest.iter().fold(Rect::from_points(*first, *first), |sum, p| sum.union_pt(*p));
+    around.x0 <= bounds.x1 && around.x1 >= bounds.x0 && around.y0 <= bounds.y1 && around.y1 >= bounds.y0
 }
 
 /// The density that was said last about a place.
