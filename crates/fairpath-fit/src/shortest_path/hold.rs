@@ -58,15 +58,12 @@ pub(super) fn give_freedom(chain: &mut Chain) {
 /// Freedoms beyond those that the ends take away, so that the curve can still follow its data.
 const SPARE: usize = 2;
 
+/// Effort of merging a chain held at both ends that may be too stiff yet: how well it can follow its data shows soon.
+pub(super) const STIFF: Effort = Effort { rounds: 6, tolerance: 1e-2 };
+
 /// Splits the piece of a chain held at both ends that strays most, and merges anew, while the chain costs more than `enough` and that helps: for chains that are stiffer than their
 /// path looked. One after the other with their neighbours, as refinement splits, pieces come to less good ends and take longer.
-pub(super) fn soften(
-    chain: &mut Chain,
-    measured: Measured,
-    enough: f64,
-    options: &FitOptions,
-    effort: Effort,
-) -> Measured {
+pub(super) fn soften(chain: &mut Chain, measured: Measured, enough: f64, options: &FitOptions) -> Measured {
     let mut measured = measured;
     if chain.held.contains(&None) {
         return measured;
@@ -78,7 +75,7 @@ pub(super) fn soften(
         let Some(most) = strays.filter(|_| cost > enough) else { break };
         let before = (chain.pieces.clone(), chain.joins.clone());
         split(chain, most);
-        match merge(chain, effort) {
+        match merge(chain, STIFF) {
             Some(softer) if total(chain, &softer, options) < cost => measured = softer,
             _ => {
                 (chain.pieces, chain.joins) = before;

@@ -18,6 +18,9 @@ const SMALL_GAP: f64 = 0.05;
 const JOINED: f64 = 1e-2;
 const APART: f64 = 2.0;
 
+/// How often a full step that runs into bounds is planned anew before it is taken as the bounds cut it.
+const REPLANS: usize = 3;
+
 /// By how much, relatively, a step may raise the energy, since closing a small gap may cost a little.
 const SLACK: f64 = 1e-4;
 
@@ -72,6 +75,12 @@ fn descend<const Z: usize>(
     let mut replans = 0;
     for round in 0..effort.rounds {
         let Some(plan) = backward::<Z>(chain, &now, relative * (now.energy + 1.0), &closure, &held) else {
+            // With too many controls held there is no way to the end: all are let go, and the bounds cut the next step.
+            if held.iter().flatten().any(|h| *h) {
+                held.fill([false; Q]);
+                replans = REPLANS;
+                continue;
+            }
             relative *= 100.0;
             if relative > 1e9 {
                 return None;
@@ -98,7 +107,7 @@ fn descend<const Z: usize>(
                 break;
             }
             // A full step that ran into bounds is planned anew with those controls held.
-            if step == 1.0 && next_held != held && replans < 3 {
+            if step == 1.0 && next_held != held && replans < REPLANS {
                 wanted = Some(next_held);
                 break;
             }
