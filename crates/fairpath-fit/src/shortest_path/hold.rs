@@ -61,11 +61,12 @@ const SPARE: usize = 2;
 /// Effort of merging a chain held at both ends that may be too stiff yet: how well it can follow its data shows soon.
 pub(super) const STIFF: Effort = Effort { rounds: 6, tolerance: 1e-2 };
 
-/// Splits the piece of a chain held at both ends that strays most, and merges anew, while the chain costs more than `enough` and that helps: for chains that are stiffer than their
-/// path looked. One after the other with their neighbours, as refinement splits, pieces come to less good ends and take longer.
+/// Splits the piece that strays most of a chain that is held at both ends or closes smoothly, and merges anew, while the chain costs more than `enough` and that helps: what its end must
+/// meet makes a chain of few pieces stiffer than its path looked. One after the other with their neighbours, as refinement splits, pieces come to less good ends and take longer.
 pub(super) fn soften(chain: &mut Chain, measured: Measured, enough: f64, options: &FitOptions) -> Measured {
     let mut measured = measured;
-    if chain.held.contains(&None) {
+    let is_ring = chain.closed && !chain.joins.contains(&Continuity::G0);
+    if chain.held.contains(&None) && !is_ring {
         return measured;
     }
     for _ in 0..SPLITS {
