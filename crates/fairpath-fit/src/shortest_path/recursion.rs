@@ -511,3 +511,56 @@ fn forward<const Z: usize>(
     }
     at_bound
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::chain::Pin;
+    use super::*;
+    use crate::walk::Datum;
+    use fairpath_curve::{Continuity, Vec2};
+
+    /// Five clothoids along a straight line, held at both its ends, which shall follow these data.
+    fn straight(data: &[Datum]) -> Chain<'_> {
+        let piece = |k: i32| Piece {
+            kind: Kind::Clothoid,
+            q: [60.0 * f64::from(k), 0.0, 0.0, 0.0, 0.0, 60.0],
+            sign: [0, 0],
+            longest: 300.0,
+        };
+        let pin = |x: f64| Some(Pin { pose: [x, 0.0, 0.0, 0.0], count: 4 });
+        Chain {
+            pieces: (0..5).map(piece).collect(),
+            joins: vec![Continuity::G2; 4],
+            data,
+            corners: Vec::new(),
+            closed: false,
+            end_factor: 1.0,
+            short: None,
+            max_curvature: 1.0,
+            variation: 0.0,
+            pins: [None; 2],
+            held: [pin(0.0), pin(300.0)],
+        }
+    }
+
+    #[test]
+    fn a_step_is_aimed_anew_until_its_end_is_where_it_is_held() {
+        // A bump, which bends the chain far enough that its end leaves the linear model.
+        let bump = |x: f64| Vec2::new(x, 20.0 * (std::f64::consts::PI * x / 300.0).sin().powi(2));
+        let datum = |i: i32| Datum { point: bump(3.0 * f64::from(i)), s: 3.0 * f64::from(i), weight: 3.0 };
+        let data: Vec<Datum> = (0..=100).map(datum).collect();
+        let mut chain = straight(&data);
+        let closure = Closure::of(&chain);
+        let held = vec![[false; Q]; chain.pieces.len()];
+        let now = chain.measure();
+        let plan = backward::<CLOSED>(&chain, &now, now.energy, &closure, &held).expect("there is a step");
+        for step in [1.0, 0.3] {
+            let old = straight(&data).pieces;
+            forward(&mut chain, &old, &plan, &plan.aim, step, &held);
+            let missed = closure.misfit(&chain.pieces);
+            go(&mut chain, &old, &plan, step, &held, &closure);
+            let left = closure.misfit(&chain.pieces);
+            assert!(missed > 1e-3 && left < 1e-6, "step {step}: {missed} px, {left} px when aimed anew");
+        }
+    }
+}
