@@ -16,10 +16,6 @@ pub(crate) const LENGTH: usize = 5;
 /// Weight of a corner relative to that of an end.
 const CORNER_FACTOR: f64 = 2.0;
 
-/// A foot that is no further than this beyond the end of a piece is on it, px: fits end at the foot of their last datum, and rounding shall not
-/// decide which piece bears that.
-const AT_END: f64 = 1e-6;
-
 /// A foot this far before the start of a piece is not on the curve, px; nearer ones may be, on the piece before.
 const BACK: f64 = 2.0;
 
@@ -352,7 +348,7 @@ impl Chain<'_> {
             // Where the foot was before saves the search for it from the foot of the last datum.
             let guess = near.get(i).and_then(|near| walker.foot_near(near - before, datum.point));
             let mut foot = guess.unwrap_or_else(|| walker.project(datum.point));
-            while k + 1 < pieces.end && foot.s > self.pieces[k].q[LENGTH] + AT_END {
+            while k + 1 < pieces.end && foot.s > self.pieces[k].q[LENGTH] {
                 let beyond = foot.s - self.pieces[k].q[LENGTH];
                 before += self.pieces[k].q[LENGTH];
                 normals[k].take(&mut natural, &self.pieces[k].q);

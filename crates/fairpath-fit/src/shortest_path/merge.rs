@@ -76,7 +76,7 @@ fn descend<const Z: usize>(
     for round in 0..effort.rounds {
         let Some(plan) = backward::<Z>(chain, &now, relative * (now.energy + 1.0), &closure, &held) else {
             // With too many controls held there is no way to the end: all are let go, and the bounds cut the next step.
-            if held.iter().flatten().any(|h| *h) {
+            if closure.count > 0 && held.iter().flatten().any(|h| *h) {
                 held.fill([false; Q]);
                 replans = REPLANS;
                 continue;

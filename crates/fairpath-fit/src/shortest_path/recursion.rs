@@ -55,15 +55,14 @@ pub(crate) fn gap_before(chain: &Chain, pieces: &[Piece], k: usize) -> [f64; 4] 
     std::array::from_fn(|i| if taken[i] == Role::State { arrived[i] - pieces[k].q[i] } else { 0.0 })
 }
 
-/// How large a gap is, px. It does not depend on how the chain lies on the page.
+/// How large a gap is, px: the weighted sum of magnitudes.
 pub(super) fn size(gap: [f64; 4]) -> f64 {
-    (gap[0] * gap[0] + gap[1] * gap[1]).sqrt() + gap[2].abs() * GAP_SCALE[2] + gap[3].abs() * GAP_SCALE[3]
+    gap.iter().zip(GAP_SCALE).map(|(g, w)| g.abs() * w).sum()
 }
 
 /// How fast something falls at most while gaps grow in [`size`], given its slopes by them.
 fn steepest(slopes: [f64; 4]) -> f64 {
-    let along = (slopes[0] * slopes[0] + slopes[1] * slopes[1]).sqrt();
-    along.max(slopes[2].abs() / GAP_SCALE[2]).max(slopes[3].abs() / GAP_SCALE[3])
+    slopes.iter().zip(GAP_SCALE).map(|(slope, w)| slope.abs() / w).fold(0.0, f64::max)
 }
 
 /// What a backward pass decides.
