@@ -338,6 +338,11 @@ fn a_million_points_are_fitted_with_work_that_grows_with_the_curve_only() {
     assert!(dense.report.max_deviation < 5.0 && !dense.spline.is_closed());
 }
 
+/// The largest magnitude of curvature.
+fn sharpest(fit: &Fit) -> f64 {
+    fit.spline.segments().iter().map(|s| s.kappa0.abs().max(s.kappa1.abs())).fold(0.0, f64::max)
+}
+
 #[test]
 fn no_piece_bends_to_less_than_the_least_radius() {
     // Up, round a bend of 5 px, and down again; then a wave.
@@ -348,10 +353,33 @@ fn no_piece_bends_to_less_than_the_least_radius() {
     for min_radius in [1.0, 8.0, 12.0, 20.0] {
         let options = FitOptions { min_radius, corner_score: 1e9, ..FitOptions::default() };
         let fit = fitted(&hairpin, &options);
-        let sharpest = fit.spline.segments().iter().map(|s| s.kappa0.abs().max(s.kappa1.abs())).fold(0.0, f64::max);
+        let sharpest = sharpest(&fit);
         assert!(sharpest <= (1.0 + 1e-9) / min_radius, "{} for {min_radius}", 1.0 / sharpest);
         // The others have to be paid for by leaving the stroke.
         assert!(min_radius > 1.0 || fit.report.max_deviation < 5.0, "{:?}", fit.report);
+    }
+}
+
+proptest! {
+    #[test]
+    fn no_hook_bends_to_less_than_the_least_radius(
+        turns in prop::collection::vec((0.5..12.0_f64, -1.2..1.2_f64), 6..30),
+        min_radius in 1.0..40.0_f64,
+        corner_score in select(vec![1.0, 1e9]),
+        preset in select(Preset::ALL.to_vec()),
+    ) {
+        let mut at = (Point::ORIGIN, 0.0);
+        let points = turns.iter().map(|(step, turn)| {
+            at.1 += turn;
+            at.0 += fairpath_curve::trig::unit(at.1) * *step;
+            at.0
+        });
+        let options = FitOptions { min_radius, corner_score, ..FitOptions::preset(preset) };
+        let drawn = Stroke::new("hook", points.collect());
+        if let Ok(fit) = fit(&drawn, &options) {
+            let sharpest = sharpest(&fit);
+            prop_assert!(sharpest <= (1.0 + 1e-9) / min_radius, "{} for {min_radius}", 1.0 / sharpest);
+        }
     }
 }
 
@@ -540,10 +568,12 @@ fn the_clothoids_preset_gives_clothoids_that_join_with_equal_curvature_but_at_co
             }
             continue;
         }
-        // A clothoid may come out with no curvature at all, where the stroke is straight.
+        // A clothoid may come out with no curvature at all, where the stroke is straight, and as an arc where it may not bend more.
         segments += kinds(&fit).len();
         straight += kinds(&fit).iter().filter(|k| **k == Kind::Line).count();
-        assert!(kinds(&fit).iter().all(|k| *k != Kind::Arc), "{}: {:?}", stroke.name, kinds(&fit));
+        let sharpest = 1.0 / FitOptions::default().min_radius;
+        let mut arcs = fit.spline.segments().iter().filter(|s| s.kind() == Kind::Arc);
+        assert!(arcs.all(|a| a.kappa0.abs() == sharpest), "{}: {:?}", stroke.name, kinds(&fit));
         let weaker = fit.spline.joins().iter().filter(|j| **j < Continuity::G2).count();
         let corners = stages.corners.len() + usize::from(fit.spline.is_closed());
         assert!(weaker <= corners, "{}: {weaker} joins without equal curvature at {corners} corners", stroke.name);

@@ -54,14 +54,31 @@ pub(crate) fn merge_until(
     judge: impl Fn(&Chain, &Measured, usize) -> Verdict,
 ) -> Option<Measured> {
     let bound = chain.closed || chain.held[1].is_some();
-    if bound { descend::<CLOSED>(chain, effort, judge) } else { descend::<OPEN>(chain, effort, judge) }
+    let descend = if bound { descend::<CLOSED, _> } else { descend::<OPEN, _> };
+    let measured = descend(chain, effort, &judge)?;
+    // Every step ends within bounds; but where none helps, the chain is still as it was guessed.
+    if bend_within_bounds(chain) { descend(chain, effort, &judge) } else { Some(measured) }
+}
+
+/// Makes no piece bend more than it may; whether one did.
+fn bend_within_bounds(chain: &mut Chain) -> bool {
+    let most = chain.max_curvature;
+    let mut bent = false;
+    for (k, piece) in chain.pieces.iter_mut().enumerate() {
+        let is_held = k == 0 && chain.held[0].is_some_and(|pin| pin.count > KAPPA0);
+        for kappa in &mut piece.q[KAPPA0 + usize::from(is_held)..=KAPPA1] {
+            bent |= kappa.abs() > (1.0 + 1e-9) * most;
+            *kappa = kappa.clamp(-most, most);
+        }
+    }
+    bent
 }
 
 /// Gauss–Newton rounds with a damping that follows their success.
-fn descend<const Z: usize>(
+fn descend<const Z: usize, J: Fn(&Chain, &Measured, usize) -> Verdict>(
     chain: &mut Chain,
     effort: Effort,
-    judge: impl Fn(&Chain, &Measured, usize) -> Verdict,
+    judge: &J,
 ) -> Option<Measured> {
     begin_where_held(chain);
     unwrap_headings(chain);
