@@ -61,26 +61,44 @@ const SPARE: usize = 2;
 /// Effort of merging a chain held at both ends that may be too stiff yet: how well it can follow its data shows soon.
 pub(super) const STIFF: Effort = Effort { rounds: 6, tolerance: 1e-2 };
 
-/// Splits the piece that strays most of a chain that is held at both ends or closes smoothly, and merges anew, while the chain costs more than `enough` and that helps: what its end must
-/// meet makes a chain of few pieces stiffer than its path looked. One after the other with their neighbours, as refinement splits, pieces come to less good ends and take longer.
-pub(super) fn soften(chain: &mut Chain, measured: Measured, enough: f64, options: &FitOptions) -> Measured {
-    let mut measured = measured;
+/// Merges a chain anew that costs more than `enough` and is held at both ends or closes smoothly, from the pieces `begun` that it had before it was merged:
+/// what its end must meet makes a chain of few pieces stiffer than its path looked. First all pieces become clothoids whose curvature may have any sign, then the
+/// one that strays most is split, for as long as that helps. One after the other with their neighbours, as refinement makes changes, pieces come to less good
+/// ends and take longer; and what they need not be, refinement takes back.
+pub(super) fn soften(
+    chain: &mut Chain,
+    begun: Vec<Piece>,
+    mut measured: Measured,
+    enough: f64,
+    options: &FitOptions,
+) -> Measured {
     let is_ring = chain.closed && !chain.joins.contains(&Continuity::G0);
-    if chain.held.contains(&None) && !is_ring {
+    if options.clothoid_cost.is_none() || chain.held.contains(&None) && !is_ring {
         return measured;
     }
-    for _ in 0..SPLITS {
+    for splits in 0..=SPLITS {
         let cost = total(chain, &measured, options);
-        let deviation = |k: &usize| measured.normals[*k].deviation(options);
-        let strays = (0..chain.pieces.len()).max_by(|a, b| deviation(a).total_cmp(&deviation(b)));
-        let Some(most) = strays.filter(|_| cost > enough) else { break };
+        if cost <= enough {
+            break;
+        }
         let before = (chain.pieces.clone(), chain.joins.clone());
-        split(chain, most);
+        if splits == 0 {
+            chain.pieces.clone_from(&begun);
+            for piece in &mut chain.pieces {
+                (piece.kind, piece.sign) = (Kind::Clothoid, [0; 2]);
+            }
+        } else {
+            let deviation = |k: &usize| measured.normals[*k].deviation(options);
+            let strays = (0..chain.pieces.len()).max_by(|a, b| deviation(a).total_cmp(&deviation(b)));
+            split(chain, strays.expect("a chain has pieces"));
+        }
         match merge(chain, STIFF) {
             Some(softer) if total(chain, &softer, options) < cost => measured = softer,
             _ => {
                 (chain.pieces, chain.joins) = before;
-                break;
+                if splits > 0 {
+                    break;
+                }
             }
         }
     }

@@ -260,8 +260,9 @@ fn merge_path(graph: &Graph, path: &Path, track: &Track, options: &FitOptions) -
         // Chosen by the coarse points, fitted to all.
         let mut coarse = along(&track.coarse, joins);
         let effort = if held.contains(&None) { FINAL } else { hold::STIFF };
+        let begun = coarse.pieces.clone();
         let measured = merge(&mut coarse, effort)?;
-        let measured = hold::soften(&mut coarse, measured, SURPRISE * path.cost, options);
+        let measured = hold::soften(&mut coarse, begun, measured, SURPRISE * path.cost, options);
         let measured = refine::refine(&mut coarse, measured, options, FINAL)?;
         let before = refine::total(&coarse, &measured, options);
         let smooth = track.shape == Shape::Ring && !coarse.joins.contains(&Continuity::G0);
