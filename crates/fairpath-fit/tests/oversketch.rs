@@ -151,6 +151,33 @@ fn a_small_correction_is_no_tremor() {
 }
 
 #[test]
+fn a_bulge_beside_a_gentle_bend_is_followed_whichever_way_the_bend_goes() {
+    // What looks like arcs by itself cannot be arcs where it must leave a bend and come back to it.
+    for sharpness in [-4.0, -1.5, 0.0, 1.5, 4.0] {
+        for kappa in [-2.5e-3, -1e-3, 0.0, 1e-3, 2.5e-3] {
+            let bend = Segment {
+                start: Point::ORIGIN,
+                heading: 0.3,
+                length: 900.0,
+                kappa0: kappa,
+                kappa1: kappa + sharpness * 1e-3,
+            };
+            let bend = Spline::new(vec![bend], Vec::new(), false).expect("it is a spline");
+            let bulge = (0..=60).map(|i| f64::from(i) / 60.0).map(|t| {
+                let pose = bend.pose_at(350.0 + 200.0 * t);
+                let aside = 10.0 * 16.0 * t * t * (1.0 - t) * (1.0 - t);
+                pose.point + fairpath_curve::trig::unit(pose.heading + 0.5 * PI) * aside
+            });
+            let over = Stroke::new("bulge", bulge.collect());
+            let result = corrected(&bend, &over);
+            let away = result.report.max_deviation;
+            assert!(away < 2.0, "{kappa}, {sharpness}: {away} px off");
+            assert!(result.warnings.is_empty(), "{kappa}, {sharpness}: {:?}", result.warnings);
+        }
+    }
+}
+
+#[test]
 fn reversing_the_stroke_gives_the_same_curve() {
     for (old, over) in [
         (wave(), stroke(40, |u| (150.0 + 120.0 * u, height(150.0 + 120.0 * u) + 20.0 * (PI * u).sin()))),

@@ -58,26 +58,22 @@ pub(super) fn give_freedom(chain: &mut Chain) {
 /// Freedoms beyond those that the ends take away, so that the curve can still follow its data.
 const SPARE: usize = 2;
 
-/// Effort of merging a chain held at both ends that may be too stiff yet: how well it can follow its data shows soon.
-pub(super) const STIFF: Effort = Effort { rounds: 6, tolerance: 1e-2 };
+/// Effort of merging a chain that may be too stiff yet: how well it can follow its data shows soon.
+const STIFF: Effort = Effort { rounds: 6, tolerance: 1e-2 };
 
-/// Merges a chain anew that costs more than `enough` and is held at both ends or closes smoothly, from the pieces `begun` that it had before it was merged:
-/// what its end must meet makes a chain of few pieces stiffer than its path looked. First all pieces become clothoids whose curvature may have any sign, then the
-/// one that strays most is split, for as long as that helps. One after the other with their neighbours, as refinement makes changes, pieces come to less good
-/// ends and take longer; and what they need not be, refinement takes back.
-pub(super) fn soften(
-    chain: &mut Chain,
-    begun: Vec<Piece>,
-    mut measured: Measured,
-    enough: f64,
-    options: &FitOptions,
-) -> Measured {
+/// Merges a chain that was just made of a path. One that is held at both ends or closes smoothly, if it costs more than `enough` or cannot meet its end, is merged
+/// anew from what it was: what its end must meet makes a chain of few pieces stiffer than its path looked. First all pieces become clothoids whose curvature
+/// may have any sign, then the one that strays most is split, for as long as that helps. One after the other with their neighbours, as refinement makes changes,
+/// pieces come to less good ends and take longer; and what they need not be, refinement takes back.
+pub(super) fn merge_softly(chain: &mut Chain, effort: Effort, enough: f64, options: &FitOptions) -> Option<Measured> {
     let is_ring = chain.closed && !chain.joins.contains(&Continuity::G0);
     if options.clothoid_cost.is_none() || chain.held.contains(&None) && !is_ring {
-        return measured;
+        return merge(chain, effort);
     }
+    let begun = chain.pieces.clone();
+    let mut best = merge(chain, STIFF);
     for splits in 0..=SPLITS {
-        let cost = total(chain, &measured, options);
+        let cost = best.as_ref().map_or(f64::INFINITY, |measured| total(chain, measured, options));
         if cost <= enough {
             break;
         }
@@ -88,12 +84,12 @@ pub(super) fn soften(
                 (piece.kind, piece.sign) = (Kind::Clothoid, [0; 2]);
             }
         } else {
-            let deviation = |k: &usize| measured.normals[*k].deviation(options);
-            let strays = (0..chain.pieces.len()).max_by(|a, b| deviation(a).total_cmp(&deviation(b)));
-            split(chain, strays.expect("a chain has pieces"));
+            let normals = &best.as_ref()?.normals;
+            let deviation = |k: &usize| normals[*k].deviation(options);
+            split(chain, (0..normals.len()).max_by(|a, b| deviation(a).total_cmp(&deviation(b)))?);
         }
         match merge(chain, STIFF) {
-            Some(softer) if total(chain, &softer, options) < cost => measured = softer,
+            Some(softer) if total(chain, &softer, options) < cost => best = Some(softer),
             _ => {
                 (chain.pieces, chain.joins) = before;
                 if splits > 0 {
@@ -102,7 +98,7 @@ pub(super) fn soften(
             }
         }
     }
-    measured
+    best
 }
 
 /// Most pieces that are split so.

@@ -259,10 +259,7 @@ fn merge_path(graph: &Graph, path: &Path, track: &Track, options: &FitOptions) -
     if options.refine {
         // Chosen by the coarse points, fitted to all.
         let mut coarse = along(&track.coarse, joins);
-        let effort = if held.contains(&None) { FINAL } else { hold::STIFF };
-        let begun = coarse.pieces.clone();
-        let measured = merge(&mut coarse, effort)?;
-        let measured = hold::soften(&mut coarse, begun, measured, SURPRISE * path.cost, options);
+        let measured = hold::merge_softly(&mut coarse, FINAL, SURPRISE * path.cost, options)?;
         let measured = refine::refine(&mut coarse, measured, options, FINAL)?;
         let before = refine::total(&coarse, &measured, options);
         let smooth = track.shape == Shape::Ring && !coarse.joins.contains(&Continuity::G0);
