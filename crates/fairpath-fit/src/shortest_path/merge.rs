@@ -7,7 +7,7 @@
 
 use super::chain::{Chain, HEADING, KAPPA0, KAPPA1, Measured, Q, end};
 use super::closing::Closure;
-use super::recursion::{CLOSED, Held, OPEN, backward, gap_before, go, size};
+use super::recursion::{CLOSED, Held, OPEN, backward, gap_before, size, take_step};
 use fairpath_curve::Kind;
 use std::f64::consts::TAU;
 
@@ -112,7 +112,7 @@ fn descend<const Z: usize, J: Fn(&Chain, &Measured, usize) -> Verdict>(
         let mut gain = None;
         let mut wanted = None;
         for _ in 0..4 {
-            let next_held = go(chain, &old, &plan, step, &held, &closure);
+            let next_held = take_step(chain, &old, &plan, step, &held, &closure);
             let next = chain.measure_near(&now);
             // A full step leaves no gap, and no step opens one.
             let next_open = if step == 1.0 || open == 0.0 { 0.0 } else { gaps(chain) };
@@ -185,7 +185,7 @@ fn join_exactly<const Z: usize>(chain: &mut Chain, closure: &Closure, held: &mut
         }
         let plan = backward::<Z>(chain, &now, JOINING * (now.energy + 1.0), closure, held)?;
         let old = chain.pieces.clone();
-        let next = go(chain, &old, &plan, 1.0, held, closure);
+        let next = take_step(chain, &old, &plan, 1.0, held, closure);
         // What is held stays held: here only the joins matter.
         for (h, n) in held.iter_mut().zip(next) {
             for (h, n) in h.iter_mut().zip(n) {

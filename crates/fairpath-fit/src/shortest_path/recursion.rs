@@ -143,8 +143,8 @@ pub(crate) fn backward<const Z: usize>(
         }
         value = Stage::new(&now.normals[k], &f, &value).eliminate(chain, k, damping, &held[k], &value, &mut laws[k])?;
     }
-    begin(chain, &mut value, damping, closure);
-    let aim = aim(chain, &value, closure, [0.0; 4])?;
+    reduce_to_first(chain, &mut value, damping, closure);
+    let aim = best_aim(chain, &value, closure, [0.0; 4])?;
     pull = pull.max(steepest(aim.multipliers));
     Some(Plan { laws, value, aim, pull })
 }
@@ -288,7 +288,7 @@ const WORTH_LETTING_GO: f64 = 1e-2;
 const FLOOR: [f64; Q] = [1e-6, 1e-6, 1e-3, 1e-1, 1e-1, 1e-6];
 
 /// Makes the cost to go one of the first state alone, and of the multipliers.
-fn begin<const Z: usize>(chain: &Chain, value: &mut Value<Z>, damping: f64, closure: &Closure) {
+fn reduce_to_first<const Z: usize>(chain: &Chain, value: &mut Value<Z>, damping: f64, closure: &Closure) {
     if closure.count > 0 {
         // The first state is also what the last must meet.
         for i in 0..4 {
@@ -310,7 +310,7 @@ fn begin<const Z: usize>(chain: &Chain, value: &mut Value<Z>, damping: f64, clos
 }
 
 /// The best change of the first state and the multipliers where closure has to make up for `more` than the model knows.
-fn aim<const Z: usize>(chain: &Chain, value: &Value<Z>, closure: &Closure, more: [f64; 4]) -> Option<Aim> {
+fn best_aim<const Z: usize>(chain: &Chain, value: &Value<Z>, closure: &Closure, more: [f64; 4]) -> Option<Aim> {
     let count = closure.count;
     let roles = roles(chain, 0);
     let mut free: Vec<usize> = (0..4).filter(|&i| roles[i] == Role::State).collect();
@@ -394,7 +394,7 @@ const CONTRACTION: f64 = 0.5;
 /// Where the end goes bends away from where the model sees it: over the length of a chain that is far more than a gap may cost, and would forbid all
 /// but small steps (Maratos' effect). So the step is aimed anew by what it missed the end by, with the same laws (a second-order correction:
 /// Nocedal and Wright, Numerical Optimization, section 18.3, repeated).
-pub(crate) fn go<const Z: usize>(
+pub(crate) fn take_step<const Z: usize>(
     chain: &mut Chain,
     old: &[Piece],
     plan: &Plan<Z>,
@@ -420,7 +420,7 @@ pub(crate) fn go<const Z: usize>(
         for i in 0..4 {
             more[i] += miss[i] / step;
         }
-        let Some(aim) = aim(chain, &plan.value, closure, more) else { break };
+        let Some(aim) = best_aim(chain, &plan.value, closure, more) else { break };
         let before = chain.pieces.clone();
         let next = forward(chain, old, plan, &aim, step, held);
         let left = missed(chain);
@@ -557,7 +557,7 @@ mod tests {
             let old = straight(&data).pieces;
             forward(&mut chain, &old, &plan, &plan.aim, step, &held);
             let missed = closure.misfit(&chain.pieces);
-            go(&mut chain, &old, &plan, step, &held, &closure);
+            take_step(&mut chain, &old, &plan, step, &held, &closure);
             let left = closure.misfit(&chain.pieces);
             assert!(missed > 1e-3 && left < 1e-6, "step {step}: {missed} px, {left} px when aimed anew");
         }
