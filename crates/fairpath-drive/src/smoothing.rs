@@ -39,7 +39,7 @@ pub(crate) const LEAST_AROUND: usize = 6;
 impl Beam {
     /// As [`smoothed`] says.
     pub(crate) fn new(points: &[[f64; 2]], weights: &[f64]) -> Result<Self, ProfileError> {
-        Self::of(points.to_vec(), weights.to_vec(), None)
+        Self::of(points.to_vec(), weights.to_vec(), false)
     }
 
     /// A beam that ends where it begins, after a length; there are [`LEAST_AROUND`] points or more, and all lie within that length.
@@ -47,10 +47,10 @@ impl Beam {
         let again = points.iter().take(AGAIN).map(|[s, z]| [s + length_m, *z]);
         let points: Vec<[f64; 2]> = points.iter().copied().chain(again).collect();
         let weights = weights.iter().chain(weights.iter().take(AGAIN)).copied().collect();
-        Self::of(points, weights, Some(AGAIN))
+        Self::of(points, weights, true)
     }
 
-    fn of(points: Vec<[f64; 2]>, weights: Vec<f64>, again: Option<usize>) -> Result<Self, ProfileError> {
+    fn of(points: Vec<[f64; 2]>, weights: Vec<f64>, is_closed: bool) -> Result<Self, ProfileError> {
         // Whatever is wrong with the points is said by a curve through them.
         Profile::catmull_rom(&points)?;
         if weights.len() != points.len() || !weights.iter().all(is_positive) {
@@ -58,9 +58,9 @@ impl Beam {
         }
         let lengths: Vec<f64> = points.windows(2).map(|pair| pair[1][0] - pair[0][0]).collect();
         let inverse = lengths.iter().map(|h| 1.0 / h).collect();
-        let intervals = again.map_or(points.len() - 1, |again| points.len() - again);
+        let intervals = points.len() - if is_closed { AGAIN } else { 1 };
         let yielding = weights.iter().map(|w| 1.0 / w).collect();
-        Ok(Self { points, intervals, is_closed: again.is_some(), yielding, lengths, inverse })
+        Ok(Self { points, intervals, is_closed, yielding, lengths, inverse })
     }
 
     /// How many intervals there are, each with its stiffness.

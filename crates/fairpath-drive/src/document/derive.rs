@@ -2,7 +2,7 @@
 //! state before, so that the result is the same as if all were new.
 
 use super::state::{FoliageRegion, LaidTerrain, State};
-use crate::furniture::{DRY_M, Sign, Tree, signs, stopping_arms, tiles_of, trees_on};
+use crate::furniture::{DRY_M, Sign, Tree, signs, standing, stopping_arms, tiles_of, wild_trees_on};
 use crate::ground::{
     Corridor, CorridorSite, CrossSection, Ground, Hit, Hits, TILE, TileIndex, corridor, cross_sections,
 };
@@ -40,6 +40,9 @@ pub struct PathResult {
     corridor: Arc<Corridor>,
 }
 
+/// The trees on each tile of the fine grid that has any.
+type Wood = BTreeMap<TileIndex, Arc<Vec<Tree>>>;
+
 /// Crossings of each pair of paths that has any.
 type Pairs = BTreeMap<[PathId; 2], Arc<Vec<Crossing>>>;
 
@@ -55,13 +58,15 @@ pub struct Results {
     /// The signs of each path, in the paths' order.
     pub signs: Vec<Arc<Vec<Sign>>>,
     /// The trees, by tiles of the fine grid.
-    pub trees: BTreeMap<TileIndex, Arc<Vec<Tree>>>,
+    pub trees: Wood,
     /// The shaped ground.
     pub ground: Ground,
     /// Crossings that ask for a ring, where there are such; the heights of their paths know nothing of crossings.
     pub unordered: Option<Unordered>,
     /// Crossings by pairs, as if nothing had been said about them.
     pairs: Pairs,
+    /// The trees that there would be without paths and water.
+    wild: Wood,
 }
 
 impl Results {
@@ -213,8 +218,8 @@ fn derived(before: Option<(&State, &Results)>, state: &State, terrain: &LaidTerr
         &paths,
         &junctions,
     );
-    let trees = planted(before, state, terrain, &paths, &ground, &dirty);
-    Results { paths, crossings, junctions, signs, trees, ground, unordered, pairs }
+    let [wild, trees] = planted(before, state, terrain, &paths, &ground, &dirty);
+    Results { paths, crossings, junctions, signs, trees, ground, unordered, pairs, wild }
 }
 
 /// Tiles of which a path asks something else than before.
@@ -302,7 +307,8 @@ fn posted(
     paths.iter().map(one).collect()
 }
 
-/// The trees of all tiles; only those are planted anew in and beside which something changed that trees depend on.
+/// The trees that there would be without paths and water, and those that there are. The former are planted anew where regions of trees came or went, the latter are
+/// also looked at anew in and beside tiles where something else changed that they depend on.
 fn planted(
     before: Option<(&State, &Results)>,
     state: &State,
@@ -310,15 +316,16 @@ fn planted(
     paths: &[Arc<PathResult>],
     ground: &Ground,
     dirty: &Dirty,
-) -> BTreeMap<TileIndex, Arc<Vec<Tree>>> {
+) -> [Wood; 2] {
     let grid = ground.grid();
     let before = before.filter(|(old, _)| old.settings.seed == state.settings.seed);
-    let mut trees = before.map(|(_, r)| r.trees.clone()).unwrap_or_default();
+    let [mut wild, mut trees] = before.map(|(_, r)| [r.wild.clone(), r.trees.clone()]).unwrap_or_default();
     let old_regions = before.map_or(&[][..], |(old, _)| &old.foliage);
     let is_in = |regions: &[Arc<FoliageRegion>], r: &Arc<FoliageRegion>| regions.iter().any(|o| Arc::ptr_eq(o, r));
     let came = state.foliage.iter().filter(|r| !is_in(old_regions, r));
     let went = old_regions.iter().filter(|r| !is_in(&state.foliage, r));
     let mut which: BTreeSet<TileIndex> = came.chain(went).flat_map(|r| tiles_of(grid, r)).collect();
+    plant(&mut wild, &which, |tile| Arc::new(wild_trees_on(tile, ground, &state.foliage, state.settings.seed)));
     if !state.foliage.is_empty() {
         which.extend(&dirty.cleared);
         // Heights tell where there is water, and nothing else.
@@ -330,20 +337,26 @@ fn planted(
         }
     }
     let corridors: Vec<&Hits> = paths.iter().map(|p| &p.corridor.hits).collect();
-    let which: Vec<TileIndex> = which.into_iter().collect();
-    let planted = parallel::map(&which, |tile| {
+    let none = Arc::default();
+    plant(&mut trees, &which, |tile| {
         // Most paths are far away.
-        let near: Vec<&Hits> = corridors.iter().copied().filter(|hits| is_near(hits, *tile)).collect();
-        trees_on(*tile, ground, &state.foliage, &near, &terrain.waters, state.settings.seed)
+        let near: Vec<&Hits> = corridors.iter().copied().filter(|hits| is_near(hits, tile)).collect();
+        standing(wild.get(&tile).unwrap_or(&none), ground, &near, &terrain.waters)
     });
-    for (tile, new) in which.into_iter().zip(planted) {
-        if new.is_empty() {
-            trees.remove(&tile);
+    [wild, trees]
+}
+
+/// Puts other trees on tiles.
+fn plant(wood: &mut Wood, which: &BTreeSet<TileIndex>, trees_on: impl Fn(TileIndex) -> Arc<Vec<Tree>> + Sync) {
+    let which: Vec<TileIndex> = which.iter().copied().collect();
+    let planted = parallel::map(&which, |tile| trees_on(*tile));
+    for (tile, trees) in which.into_iter().zip(planted) {
+        if trees.is_empty() {
+            wood.remove(&tile);
         } else {
-            trees.insert(tile, Arc::new(new));
+            wood.insert(tile, trees);
         }
     }
-    trees
 }
 
 /// Tiles and those beside them.

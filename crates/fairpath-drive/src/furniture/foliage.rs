@@ -34,17 +34,9 @@ pub struct Tree {
     pub kind: u8,
 }
 
-/// The trees on one tile of the fine grid.
-pub(crate) fn trees_on(
-    tile: TileIndex,
-    ground: &Ground,
-    regions: &[Arc<FoliageRegion>],
-    corridors: &[&Hits],
-    waters: &Waters,
-    seed: u64,
-) -> Vec<Tree> {
-    let grid = ground.grid();
-    let [low, high] = tile_box(grid, tile);
+/// The trees that would stand on one tile of the fine grid if there were neither paths nor water.
+pub(crate) fn wild_trees_on(tile: TileIndex, ground: &Ground, regions: &[Arc<FoliageRegion>], seed: u64) -> Vec<Tree> {
+    let [low, high] = tile_box(ground.grid(), tile);
     let bounds = Rect::new(low.x, low.y, high.x, high.y);
     if !regions.iter().any(|region| touches(&region.outline, bounds)) {
         return Vec::new();
@@ -82,10 +74,6 @@ pub(crate) fn trees_on(
                 if (row - 1..=row + 1).any(|r| (column - 1..=column + 1).any(|c| of_cell(c, r).iter().any(beats_own))) {
                     continue;
                 }
-                let is_wet = waters.level_at(own.place).is_some_and(|level| ground.height(own.place) < level + DRY_M);
-                if is_wet || is_blocked(grid, corridors, own.place) {
-                    continue;
-                }
                 let [size, turn, kind] = own.looks();
                 found.push(Tree {
                     place: own.place,
@@ -97,6 +85,18 @@ pub(crate) fn trees_on(
         }
     }
     found
+}
+
+/// Of the trees on a tile those that neither paths nor water are in the way of.
+pub(crate) fn standing(wild: &Arc<Vec<Tree>>, ground: &Ground, corridors: &[&Hits], waters: &Waters) -> Arc<Vec<Tree>> {
+    let stands = |tree: &Tree| {
+        let is_wet = || waters.level_at(tree.place).is_some_and(|level| ground.height(tree.place) < level + DRY_M);
+        !is_blocked(ground.grid(), corridors, tree.place) && !is_wet()
+    };
+    if wild.iter().all(stands) {
+        return wild.clone();
+    }
+    Arc::new(wild.iter().copied().filter(stands).collect())
 }
 
 /// The tiles that a region lies over.
