@@ -67,8 +67,10 @@ fn bend_within_bounds(chain: &mut Chain) -> bool {
     for (k, piece) in chain.pieces.iter_mut().enumerate() {
         let is_held = k == 0 && chain.held[0].is_some_and(|pin| pin.count > KAPPA0);
         for kappa in &mut piece.q[KAPPA0 + usize::from(is_held)..=KAPPA1] {
-            bent |= kappa.abs() > (1.0 + 1e-9) * most;
-            *kappa = kappa.clamp(-most, most);
+            if kappa.abs() > (1.0 + 1e-9) * most {
+                *kappa = kappa.clamp(-most, most);
+                bent = true;
+            }
         }
     }
     bent
