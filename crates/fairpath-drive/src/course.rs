@@ -19,24 +19,6 @@ impl<'a> Course<'a> {
         Self { plan, starts: starts.collect() }
     }
 
-    /// The station of a place of a segment, m.
-    pub(crate) fn station(&self, segment: usize, s: f64) -> f64 {
-        self.starts[segment] + s
-    }
-
-    /// Stations from the start to the end, ascending, in equal steps along each segment, none longer than this, m: along a segment that stays they stay, however long the path became elsewhere.
-    pub(crate) fn steps(&self, longest_m: f64) -> Vec<f64> {
-        let mut stations = Vec::new();
-        let mut end = 0.0;
-        for (start, segment) in self.starts.iter().zip(self.plan.segments()) {
-            let count = (segment.length / longest_m).ceil().max(1.0);
-            stations.extend((0..count as usize).map(|i| start + i as f64 / count * segment.length));
-            end = start + segment.length;
-        }
-        stations.push(end);
-        stations
-    }
-
     /// The segment on which a station lies, and how far from its start, m. What lies beyond an end counts as the end.
     pub(crate) fn locate(&self, station: f64) -> (usize, f64) {
         let segment = self.starts.partition_point(|start| *start <= station).max(1) - 1;

@@ -40,6 +40,7 @@ mod rules;
 mod scene;
 mod section;
 mod smoothing;
+mod survey;
 mod terrain;
 
 pub use document::{

@@ -12,6 +12,7 @@ use crate::network::{
     crossings_within, decide, engineered, junctions, profile_with, structures, wanted_heights,
 };
 use crate::profile::Profile;
+use crate::survey::Survey;
 use fairpath_curve::Rect;
 use fairpath_fit::parallel;
 use std::collections::{BTreeMap, BTreeSet};
@@ -28,6 +29,8 @@ pub struct PathResult {
     pub structures: Vec<Structure>,
     /// Its cross-sections, in order.
     pub sections: Arc<Vec<CrossSection>>,
+    /// The natural terrain along it.
+    survey: Arc<Survey>,
     /// The elevation that it would have alone.
     alone: Arc<Profile>,
     /// Stations of its crossings and the heights there, m.
@@ -101,16 +104,19 @@ fn derived(before: Option<(&State, &Results)>, state: &State, terrain: &LaidTerr
     // Settings reach every path; a region of soil reaches those that lie on it, and telling which would cost more than it saves.
     let same_ground =
         before.is_some_and(|(old, _)| old.settings == state.settings && Arc::ptr_eq(&old.soils, &state.soils));
-    let alone_of: Vec<Arc<Profile>> = state
-        .paths
-        .iter()
-        .map(|path| match old_path(path.id) {
-            Some(old) if same_course(path) && old.path.heights == path.heights && old.path.drawn == path.drawn => {
-                old.alone.clone()
-            }
-            _ => Arc::new(alone(path, &terrain.field, &terrain.waters)),
-        })
-        .collect();
+    let (field, waters) = (&terrain.field, &terrain.waters);
+    let survey_of = |path: &Arc<Path>| match old_path(path.id) {
+        Some(old) if Arc::ptr_eq(&old.path.plan, &path.plan) => old.survey.clone(),
+        old => Arc::new(Survey::of(&path.plan, field, waters, old.map(|old| old.survey.as_ref()))),
+    };
+    let surveys: Vec<Arc<Survey>> = state.paths.iter().map(survey_of).collect();
+    let alone_of = |(path, survey): (&Arc<Path>, &Arc<Survey>)| match old_path(path.id) {
+        Some(old) if same_course(path) && old.path.heights == path.heights && old.path.drawn == path.drawn => {
+            old.alone.clone()
+        }
+        _ => Arc::new(alone(path, survey, field, waters)),
+    };
+    let alone_of: Vec<Arc<Profile>> = state.paths.iter().zip(&surveys).map(alone_of).collect();
     let mut crossings_of: Vec<Vec<Crossing>> = vec![Vec::new(); state.paths.len()];
     let index = |id: PathId| state.paths.binary_search_by_key(&id, |p| p.id).ok();
     for crossing in &crossings {
@@ -158,18 +164,12 @@ fn derived(before: Option<(&State, &Results)>, state: &State, terrain: &LaidTerr
             let j = index(place.path)?;
             Some((state.paths[j].as_ref(), elevations[j].profile.as_ref()))
         };
-        let structures = structures(
-            path,
-            &profile,
-            &crossings_of[i],
-            other,
-            &terrain.field,
-            &terrain.waters,
-            &state.settings.structures,
-        );
+        let limits = &state.settings.structures;
+        let structures = structures(path, &surveys[i], &profile, &crossings_of[i], other, field, limits);
         let result = match old {
             Some(old) if same_heights && same_ground && old.structures == structures => PathResult {
                 path: path.clone(),
+                survey: surveys[i].clone(),
                 alone: alone_of[i].clone(),
                 crossings: crossings_of[i].clone(),
                 wanted: elevation.wanted.clone(),
@@ -178,12 +178,12 @@ fn derived(before: Option<(&State, &Results)>, state: &State, terrain: &LaidTerr
             },
             _ => {
                 let options = &state.settings.earthwork;
-                let site = CorridorSite { natural: &terrain.field, soils: &state.soils, options };
+                let site = CorridorSite { natural: field, soils: &state.soils, options };
                 // Where the path runs as it did, so does its corridor.
                 let kept = old.filter(|old| same_ground && Arc::ptr_eq(&old.path.section, &path.section));
                 let kept = kept.map(|old| (old.sections.as_slice(), old.corridor.as_ref()));
                 let before = kept.map_or(&[][..], |(sections, _)| sections);
-                let sections = cross_sections(path, &profile, &structures, &site, before);
+                let sections = cross_sections(path, &surveys[i], &profile, &structures, &site, before);
                 let corridor = corridor(&sections, kept, path.section.bed_m, options, old_ground);
                 let (sections, corridor) = (Arc::new(sections.all), Arc::new(corridor));
                 // Where it asks what it asked before, the ground stays.
@@ -193,6 +193,7 @@ fn derived(before: Option<(&State, &Results)>, state: &State, terrain: &LaidTerr
                     profile,
                     structures,
                     sections,
+                    survey: surveys[i].clone(),
                     alone: alone_of[i].clone(),
                     wanted: elevation.wanted.clone(),
                     infeasible: elevation.infeasible.clone(),

@@ -4,8 +4,9 @@ use super::soil::Soils;
 use crate::course::Course;
 use crate::network::{Carrier, Path, Structure};
 use crate::profile::Profile;
+use crate::survey::{Line, Survey};
 use crate::terrain::Heightfield;
-use fairpath_curve::{Point, Pose, Segment, Vec2};
+use fairpath_curve::{Point, Vec2};
 use fairpath_fit::parallel;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -89,12 +90,6 @@ pub struct CrossSection {
     pub areas_m2: [f64; 2],
 }
 
-/// Chords between cross-sections stay this near to the path, m.
-const CHORD_M: f64 = 0.05;
-
-/// Cross-sections are no further apart, m.
-const FURTHEST_M: f64 = 5.0;
-
 /// Slopes are followed and areas summed in steps of this length, m.
 const ACROSS_M: f64 = 1.0;
 
@@ -138,12 +133,13 @@ pub(crate) struct Site<'a> {
 /// The cross-sections of a path. Those of `before`, which have the same site and the same section of the path, stay as far as from both ends the path runs as it did.
 pub(crate) fn cross_sections(
     path: &Path,
+    survey: &Survey,
     profile: &Profile,
     structures: &[Structure],
     site: &Site,
     before: &[CrossSection],
 ) -> Sections {
-    let bare = bare_sections(path, profile, structures);
+    let bare = bare_sections(path, survey, profile, structures, site.natural);
     let is_same = |old: &CrossSection, new: &CrossSection| {
         // The station tells only where it is counted from.
         old.point == new.point
@@ -166,27 +162,32 @@ pub(crate) fn cross_sections(
     Sections { all, new, old }
 }
 
-/// Cross-sections that know nothing of the ground.
-fn bare_sections(path: &Path, profile: &Profile, structures: &[Structure]) -> Vec<CrossSection> {
+/// Cross-sections that know nothing of the ground beside the path.
+fn bare_sections(
+    path: &Path,
+    survey: &Survey,
+    profile: &Profile,
+    structures: &[Structure],
+    natural: &Heightfield,
+) -> Vec<CrossSection> {
     let half = path.section.half_widths_m();
-    let bare = |Place { station_m, pose }: Place, carrier: Option<Carrier>| {
-        let tangent = fairpath_curve::trig::unit(pose.heading);
+    let bare = |Place { station_m, line, carrier }: Place| {
         let side =
             |i: usize| Side { half_width_m: half[i], daylight_m: half[i], cut_run: 1.0, fill_run: 1.0, wall: false };
         CrossSection {
             station_m,
-            point: pose.point,
-            left: Vec2::new(-tangent.y, tangent.x),
-            curvature: pose.curvature,
+            point: line.point,
+            left: line.left,
+            curvature: line.curvature,
             height_m: (profile.at(station_m).height_m / HEIGHT_STEP_M).round() * HEIGHT_STEP_M,
-            natural_m: 0.0,
+            natural_m: line.natural_m,
             on_ground: carrier.is_none() && path.section.shapes_ground,
             covered: carrier == Some(Carrier::Tunnel),
             sides: [side(0), side(1)],
             areas_m2: [0.0; 2],
         }
     };
-    parallel::map(&places(path, structures), |(place, carrier)| bare(*place, *carrier))
+    places(path, survey, structures, natural).into_iter().map(bare).collect()
 }
 
 /// A cross-section on the ground.
@@ -198,7 +199,7 @@ fn shaped(bare: CrossSection, path: &Path, site: &Site) -> CrossSection {
         verge_m: options.verge_m,
         drop_m: options.verge_drop_m,
     };
-    let mut section = CrossSection { natural_m: natural.height(bare.point), ..bare };
+    let mut section = bare;
     for i in 0..2 {
         let out = if i == 0 { bare.left } else { -bare.left };
         let side = &mut section.sides[i];
@@ -266,60 +267,53 @@ fn slope(
     side.wall = !ends;
 }
 
-/// Where a cross-section is taken.
-#[derive(Clone, Copy)]
+/// Where a cross-section is taken, and what carries the path there, if not the ground.
 struct Place {
     station_m: f64,
-    pose: Pose,
+    line: Line,
+    carrier: Option<Carrier>,
 }
 
-/// Where cross-sections are taken, and what carries the path there, if not the ground. Where that changes there are two at one place. Places are told from the start of each
-/// segment of the plan, so that where the plan is as it was, they are; the ends of bridges and tunnels come in between and move none of them.
-fn places(path: &Path, structures: &[Structure]) -> Vec<(Place, Option<Carrier>)> {
+/// Where cross-sections are taken. Where what carries the path changes there are two at one place. The lines across it were surveyed segment by segment, so that where the plan is as it
+/// was, they are; the ends of bridges and tunnels come in between and move none of them.
+fn places(path: &Path, survey: &Survey, structures: &[Structure], natural: &Heightfield) -> Vec<Place> {
     let course = Course::new(&path.plan);
-    let segments = path.plan.segments();
-    let mut cuts_of: Vec<Vec<f64>> = parallel::map(segments, even_cuts);
-    for station in structures.iter().flat_map(|s| [s.from_m, s.to_m]) {
+    // Stations have other last digits where the path became longer before them.
+    let ends = structures.iter().flat_map(|s| [s.from_m, s.to_m]).map(|station| {
         let (segment, s) = course.locate(station);
-        // Stations have other last digits where the path became longer before them.
-        cuts_of[segment].push((s / LEAST_M).round() * LEAST_M);
-    }
-    let mut out: Vec<(Place, Option<Carrier>)> = Vec::new();
+        (segment, (s / LEAST_M).round() * LEAST_M)
+    });
+    let mut ends: Vec<(usize, f64)> = ends.collect();
+    ends.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
+    let mut ends = ends.into_iter().peekable();
+    let mut out: Vec<Place> = Vec::new();
     let mut carrier = None;
-    for (i, (segment, mut cuts)) in segments.iter().zip(cuts_of).enumerate() {
-        let place = |s: f64| Place { station_m: course.station(i, s), pose: segment.pose_at(s) };
-        let is_last = i + 1 == segments.len();
-        cuts.sort_by(f64::total_cmp);
+    let last = path.plan.segments().len() - 1;
+    for (i, (start, segment)) in survey.segments().enumerate() {
+        let length = segment.length_m();
+        let mut lines = segment.lines.clone();
+        while let Some((_, s)) = ends.next_if(|end| end.0 == i) {
+            lines.insert(lines.partition_point(|line| line.s_m <= s), segment.line_at(s, natural));
+        }
         // The end is the start of the next one.
-        cuts.retain(|s| *s < segment.length - LEAST_M);
-        cuts.dedup_by(|a, b| *a - *b < LEAST_M);
-        for (k, &from) in cuts.iter().enumerate() {
-            let to = cuts.get(k + 1).copied().unwrap_or(segment.length);
-            let middle = course.station(i, 0.5 * (from + to));
+        lines.retain(|line| line.s_m < length - LEAST_M);
+        lines.dedup_by(|a, b| a.s_m - b.s_m < LEAST_M);
+        for (k, &line) in lines.iter().enumerate() {
+            let to = lines.get(k + 1).map_or(length, |next| next.s_m);
+            let middle = start + 0.5 * (line.s_m + to);
             let own = structures.iter().find(|s| s.from_m <= middle && middle <= s.to_m).map(|s| s.carrier);
+            let station_m = start + line.s_m;
             if own != carrier && !out.is_empty() {
-                out.push((place(from), carrier));
+                out.push(Place { station_m, line, carrier });
             }
             carrier = own;
-            out.push((place(from), carrier));
+            out.push(Place { station_m, line, carrier });
         }
-        if is_last {
-            out.push((place(segment.length), carrier));
+        if i == last {
+            out.push(Place { station_m: start + length, line: segment.line_at(length, natural), carrier });
         }
     }
     out
-}
-
-/// Where a segment is cut so that chords stay near to it and are not too long, from its start on, m.
-fn even_cuts(segment: &Segment) -> Vec<f64> {
-    let mut cuts = Vec::new();
-    let mut from = 0.0;
-    for to in segment.flatten_at(CHORD_M).into_iter().chain([segment.length]) {
-        let parts = ((to - from) / FURTHEST_M).ceil().max(1.0) as usize;
-        cuts.extend((0..parts).map(|p| from + (to - from) * p as f64 / parts as f64));
-        from = to;
-    }
-    cuts
 }
 
 /// Cross-sections nearer to each other than this would be one, m.

@@ -6,13 +6,9 @@ use crate::groups::Groups;
 use crate::heights::{CrossingHeights, HeightError, HeightPoint, Over, PathPoints};
 use crate::profile::{Knot, Profile, ProfileError};
 use crate::smoothing::{Beam, LEAST_AROUND, smoothed};
+use crate::survey::{LOOK_M, Survey, followed_m};
 use crate::terrain::{Heightfield, Waters};
-use fairpath_curve::{Point, Segment};
-use fairpath_fit::parallel;
 use std::f64::consts::TAU;
-
-/// The ground is looked at in steps of this length along a path, m.
-const STEP_M: f64 = 5.0;
 
 /// Waves of the ground of this length are halved in the profile of a path, m for each km/h: at 60 km/h those of 150 m.
 const WAVE_M_PER_KMH: f64 = 2.5;
@@ -22,9 +18,6 @@ const LONGEST_WAVE_M: f64 = 2000.0;
 
 /// Weight of the ground at a path's ends, beside 1 everywhere else.
 const END_WEIGHT: f64 = 1000.0;
-
-/// A path over water lies this much above it, m.
-pub(super) const FREEBOARD_M: f64 = 2.0;
 
 /// What a path is raised or lowered at a crossing comes to an end within a length in which its grade takes up this share of the steepest it may have.
 const RAMP_SHARE: f64 = 0.4;
@@ -38,11 +31,11 @@ const LENGTH_SCALE_M: f64 = 60.0;
 /// Over how much of a path beside drawn heights its own profile leads to them, m for each km/h.
 const TRANSITION_M_PER_KMH: f64 = 1.0;
 
-/// A profile that a path would have alone: the ground along it, made fair, with what was drawn.
-pub(crate) fn alone(path: &Path, ground: &Heightfield, waters: &Waters) -> Profile {
+/// A profile that a path would have alone: the ground along it, as its plan was surveyed, made fair, with what was drawn.
+pub(crate) fn alone(path: &Path, survey: &Survey, ground: &Heightfield, waters: &Waters) -> Profile {
     let length = path.length_m();
     let closed = path.plan.is_closed();
-    let Looks { points, spacings_m } = looks(path, ground, waters);
+    let Looks { points, spacings_m } = looks(path, survey, ground, waters);
     let whole = |profile: &Profile| if closed { closed_up(profile, length) } else { ends_exactly(profile, length) };
     let profile = if path.heights == HeightMode::Draped {
         let points = if closed { thrice(&points, length, |point, turn| [point[0] + turn, point[1]]) } else { points };
@@ -78,38 +71,23 @@ struct Looks {
 }
 
 /// The heights of the ground along a path, in equal steps along each segment of its plan: where the plan is as it was, so are they, however long the path became elsewhere.
-fn looks(path: &Path, ground: &Heightfield, waters: &Waters) -> Looks {
+fn looks(path: &Path, survey: &Survey, ground: &Heightfield, waters: &Waters) -> Looks {
     let length = path.length_m();
-    let height = |place: Point| {
-        let z = ground.smooth_height(place);
-        waters.level_at(place).map_or(z, |level| z.max(level + FREEBOARD_M))
-    };
-    let segments = path.plan.segments();
-    let of_segment = |segment: &Segment| {
-        let count = (segment.length / STEP_M).round();
-        let look = |i: usize| {
-            let s = (i as f64 + 0.5) / count * segment.length;
-            (s, height(segment.point_at(s)), segment.length / count)
-        };
-        (0..count as usize).map(look).collect::<Vec<_>>()
-    };
-    let mut own: Vec<([f64; 2], f64)> = Vec::new();
-    let mut before = 0.0;
-    for (segment, looks) in segments.iter().zip(parallel::map(segments, of_segment)) {
-        own.extend(looks.into_iter().map(|(s, z, spacing)| ([before + s, z], spacing)));
-        before += segment.length;
-    }
-    if path.plan.is_closed() {
+    let height = |station: f64| followed_m(path.plan.point_at(station), ground, waters);
+    let own = survey.segments().flat_map(|(start, segment)| {
+        let spacing = segment.look_spacing_m();
+        segment.looks.iter().map(move |[s, z]| ([start + s, *z], spacing))
+    });
+    let (points, spacings_m) = if path.plan.is_closed() {
+        let own: Vec<_> = own.collect();
         // A closed path that is shorter than a step has one look, and needs two.
-        if own.len() < 2 {
-            own = [0.25, 0.75].map(|t| ([t * length, height(path.plan.point_at(t * length))], 0.5 * length)).to_vec();
-        }
+        if own.len() < 2 { [0.25, 0.75].map(|t| ([t * length, height(t * length)], 0.5 * length)).to_vec() } else { own }
+            .into_iter()
+            .unzip()
     } else {
-        let end = |station: f64| ([station, height(path.plan.point_at(station))], 0.0);
-        own.insert(0, end(0.0));
-        own.push(end(length));
-    }
-    let (points, spacings_m) = own.into_iter().unzip();
+        let end = |station: f64| [([station, height(station)], 0.0)];
+        end(0.0).into_iter().chain(own).chain(end(length)).unzip()
+    };
     Looks { points, spacings_m }
 }
 
@@ -122,7 +100,7 @@ fn thrice<T>(once: &[T], length: f64, shifted: impl Fn(&T, f64) -> T) -> Vec<T> 
 /// the ground altogether.
 fn fair(path: &Path, points: &[[f64; 2]], spacings_m: &[f64]) -> Profile {
     // A path begins and ends on the ground.
-    let weights: Vec<f64> = spacings_m.iter().map(|s| if *s > 0.0 { s / STEP_M } else { END_WEIGHT }).collect();
+    let weights: Vec<f64> = spacings_m.iter().map(|s| if *s > 0.0 { s / LOOK_M } else { END_WEIGHT }).collect();
     if !path.plan.is_closed() {
         return Profile::new(made_fair(path, &Beam::new(points, &weights).expect(ASCENDING))).expect(ASCENDING);
     }
@@ -144,7 +122,7 @@ fn made_fair(path: &Path, beam: &Beam) -> Vec<Knot> {
     let longest = LONGEST_WAVE_M.max(WAVE_M_PER_KMH * path.section.speed_kmh);
     let mut waves = vec![WAVE_M_PER_KMH * path.section.speed_kmh; beam.intervals()];
     loop {
-        let stiffness: Vec<f64> = waves.iter().map(|wave| fourth_power(wave / TAU) / STEP_M).collect();
+        let stiffness: Vec<f64> = waves.iter().map(|wave| fourth_power(wave / TAU) / LOOK_M).collect();
         let knots = beam.knots(&stiffness).expect(ASCENDING);
         let mut is_longer = false;
         for (wave, ends) in waves.iter_mut().zip(knots.windows(2)) {

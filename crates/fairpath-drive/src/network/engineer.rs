@@ -1,7 +1,7 @@
 //! Heights of those paths that are to be engineered: paths that hang together come in, with the heights that the others have; the profiles of least earthwork go out.
 
 use super::contact::{Crossing, Meeting};
-use super::elevation::{FREEBOARD_M, separation_m};
+use super::elevation::separation_m;
 use super::path::{HeightMode, Path, PathId};
 use crate::engineered::{
     ClearanceAt, EarthworkSection, EngineeredError, EngineeredNetwork, EngineeredRoad, FixedPoint, GradeLimits,
@@ -10,6 +10,7 @@ use crate::engineered::{
 use crate::ground::{EarthworkOptions, Soils};
 use crate::profile::Profile;
 use crate::rules::DesignRules;
+use crate::survey::FREEBOARD_M;
 use crate::terrain::{Heightfield, Waters};
 
 /// Vertical curves begin and end at multiples of this length, m, or of a quarter of the path.

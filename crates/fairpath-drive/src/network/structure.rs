@@ -4,8 +4,8 @@ use super::contact::{Crossing, PathPlace};
 use super::path::Path;
 use crate::course::Course;
 use crate::profile::Profile;
-use crate::terrain::{Heightfield, Waters};
-use fairpath_fit::parallel;
+use crate::survey::{STEP_M, Step, Survey};
+use crate::terrain::Heightfield;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -58,9 +58,6 @@ impl Default for StructureLimits {
     }
 }
 
-/// Profile and ground are compared in steps of this length, m.
-const STEP_M: f64 = 2.0;
-
 /// The abutment of a bridge over a path stands this far beside it, m.
 const BESIDE_M: f64 = 2.0;
 
@@ -70,26 +67,28 @@ const INLAND_M: f64 = 4.0;
 /// The bridges and tunnels of a path, in the order of their stations; one that leads over the seam of a closed path is two. `other` gives the paths that it crosses, with their profiles.
 pub(crate) fn structures<'a>(
     path: &Path,
+    survey: &Survey,
     profile: &Profile,
     crossings: &[Crossing],
     other: impl Fn(PathPlace) -> Option<(&'a Path, &'a Profile)>,
     ground: &Heightfield,
-    waters: &Waters,
     limits: &StructureLimits,
 ) -> Vec<Structure> {
     if !path.section.shapes_ground {
         return Vec::new();
     }
     let (length, closed) = (path.length_m(), path.plan.is_closed());
-    let course = Course::new(&path.plan);
-    let stations = course.steps(STEP_M);
+    let (mut stations, mut at) = (Vec::new(), Vec::new());
+    let mut compare = |station: f64, step: &Step| {
+        stations.push(station);
+        at.push((profile.at(station).height_m - step.natural_m, step.is_wet));
+    };
+    for (start, segment) in survey.segments() {
+        segment.steps.iter().for_each(|step| compare(start + step.s_m, step));
+    }
+    compare(length, &survey.end);
     let count = stations.len() - 1;
     let station = |i: usize| if i > count { stations[i - count] + length } else { stations[i] };
-    let at: Vec<(f64, bool)> = parallel::map(&stations, |station| {
-        let place = course.point_at(*station);
-        let z = ground.height(place);
-        (profile.at(*station).height_m - z, waters.covers(place, z))
-    });
     // A closed path is gone round twice, so that what leads over its seam is seen in one piece.
     let turns = if closed { 2 } else { 1 };
     let on = |i: usize| if i > count { at[i - count] } else { at[i] };
