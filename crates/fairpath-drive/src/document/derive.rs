@@ -184,7 +184,7 @@ fn derived(before: Option<(&State, &Results)>, state: &State, terrain: &LaidTerr
                 let kept = kept.map(|old| (old.sections.as_slice(), old.corridor.as_ref()));
                 let before = kept.map_or(&[][..], |(sections, _)| sections);
                 let sections = cross_sections(path, &surveys[i], &profile, &structures, &site, before);
-                let corridor = corridor(&sections, kept, path.section.bed_m, options, old_ground);
+                let corridor = corridor(&sections, kept, &path.section, options, old_ground);
                 let (sections, corridor) = (Arc::new(sections.all), Arc::new(corridor));
                 // Where it asks what it asked before, the ground stays.
                 dirty.compare(old.map(|old| old.corridor.as_ref()), Some(&corridor));

@@ -6,6 +6,7 @@ use super::Ground;
 use super::corridor::{CrossSection, Design, EarthworkOptions, Sections, Side};
 use super::tiles::{FineGrid, TILE, TileIndex};
 use crate::furniture::CLEAR_M;
+use crate::section::Section;
 use fairpath_curve::{Point, Vec2};
 use fairpath_fit::parallel;
 use std::collections::BTreeMap;
@@ -96,11 +97,11 @@ struct Spot {
 pub(crate) fn corridor(
     sections: &Sections,
     before: Option<(&[CrossSection], &Corridor)>,
-    bed_m: f64,
+    section: &Section,
     options: &EarthworkOptions,
     ground: &Ground,
 ) -> Corridor {
-    let grid = ground.grid();
+    let (grid, half_widths_m) = (ground.grid(), section.half_widths_m());
     // Where most is new, all tiles are asked anew, which costs less than to tell which.
     let is_mostly_new = 2 * sections.new.len() > sections.all.len();
     let (mut corridor, which) = match before.filter(|_| !is_mostly_new) {
@@ -122,27 +123,27 @@ pub(crate) fn corridor(
     let pairs: Vec<&[CrossSection]> = sections.all.windows(2).collect();
     let strips: Vec<Strip> =
         parallel::map(&pairs, |pair| Strip::of([&pair[0], &pair[1]], grid)).into_iter().flatten().collect();
-    // The strips that may reach each tile, ascending.
-    let mut reaching: Vec<(TileIndex, usize)> = Vec::new();
-    for (i, strip) in strips.iter().enumerate() {
-        let tiles = tiles_within(strip.wide_tiles);
+    // The strips that may reach each tile, ascending; those next to each other mostly lie on the same tiles.
+    let mut reaching: Vec<(TileIndex, Range<usize>)> = Vec::new();
+    let mut next = 0;
+    for run in strips.chunk_by(|a, b| a.tiles == b.tiles) {
+        let range = next..next + run.len();
+        next = range.end;
+        let tiles = tiles_within(run[0].tiles);
         let wanted = tiles.filter(|tile| which.as_ref().is_none_or(|which| which.binary_search(tile).is_ok()));
-        reaching.extend(wanted.map(|tile| (tile, i)));
+        reaching.extend(wanted.map(|tile| (tile, range.clone())));
     }
     // Stable, so that strips stay in their order.
     reaching.sort_by_key(|(tile, _)| rank(*tile));
-    let reaching: Vec<&[(TileIndex, usize)]> = reaching.chunk_by(|a, b| a.0 == b.0).collect();
+    let reaching: Vec<&[(TileIndex, Range<usize>)]> = reaching.chunk_by(|a, b| a.0 == b.0).collect();
     let asked = parallel::map(&reaching, |reaching| {
         let tile = reaching[0].0;
-        let strips: Vec<&Strip> = reaching.iter().map(|(_, strip)| &strips[*strip]).collect();
-        let kept = before.and_then(|(_, old)| old.spots.get(&tile));
-        let kept = kept.and_then(|kept| Some((kept.clone(), kept.found_in(&strips, tile)?)));
-        let (spots, places) = kept.unwrap_or_else(|| {
-            let places = strips.iter().map(|strip| strip.at(tile)).collect();
-            (Arc::new(Spots::of(&strips, ground, tile)), places)
-        });
-        let hits = spots.bounded(&places, bed_m, options, grid);
-        (spots, hits)
+        let strips: Vec<&Strip> = reaching.iter().flat_map(|(_, range)| &strips[range.clone()]).collect();
+        let known = before.and_then(|(_, old)| old.spots.get(&tile));
+        let (spots, places) = Spots::on(tile, &strips, known, half_widths_m, ground);
+        let hits = spots.bounded(&places, section.bed_m, options, grid);
+        let same = before.and_then(|(_, old)| old.hits.get(&tile)).filter(|old| ***old == hits);
+        (spots, same.cloned().unwrap_or_else(|| Arc::new(hits)))
     });
     for tile in which.iter().flatten() {
         corridor.hits.remove(tile);
@@ -152,7 +153,7 @@ pub(crate) fn corridor(
     for (reaching, (own, asked)) in reaching.into_iter().zip(asked) {
         let tile = reaching[0].0;
         spots.extend((!own.all.is_empty()).then_some((tile, own)));
-        hits.extend((!asked.is_empty()).then(|| (tile, Arc::new(asked))));
+        hits.extend((!asked.is_empty()).then_some((tile, asked)));
     }
     corridor.spots.append(&mut spots.into_iter().collect());
     corridor.hits.append(&mut hits.into_iter().collect());
@@ -221,11 +222,9 @@ type Between<'a> = [&'a CrossSection; 2];
 struct Strip<'a> {
     between: Between<'a>,
     plan: StripPlan,
-    /// The tiles in which it may ask anything, as [`StripPlan::tiles`] gives them.
-    tiles: Option<[TileIndex; 2]>,
     /// The plan by which its samples are looked for, and the tiles in which these lie.
     wide: StripPlan,
-    wide_tiles: [TileIndex; 2],
+    tiles: [TileIndex; 2],
 }
 
 impl<'a> Strip<'a> {
@@ -233,80 +232,69 @@ impl<'a> Strip<'a> {
     fn of(between: Between<'a>, grid: &FineGrid) -> Option<Self> {
         let plan = StripPlan::of(between, grid)?;
         let wide = plan.wider();
-        Some(Self { between, plan, tiles: plan.tiles(grid), wide, wide_tiles: wide.tiles(grid)? })
+        Some(Self { between, plan, wide, tiles: wide.tiles(grid)? })
     }
 
-    /// Its cross-sections if it may ask anything of a tile as it is.
-    fn at(&self, tile: TileIndex) -> Option<Between<'a>> {
+    /// Whether it may ask anything of a tile as it is.
+    fn reaches(&self, tile: TileIndex, grid: &FineGrid) -> bool {
         let is_in = |[low, high]: [TileIndex; 2]| (0..2).all(|i| (low[i]..=high[i]).contains(&tile[i]));
-        self.tiles.is_some_and(is_in).then_some(self.between)
+        self.plan.tiles(grid).is_some_and(is_in)
     }
 }
 
 impl Spots {
-    /// The cross-sections, as they are now, of the strips in which these samples lie, but for those of which the slopes end before the tile; nothing where there may be other samples.
-    fn found_in<'a>(&self, strips: &[&Strip<'a>], tile: TileIndex) -> Option<Vec<Option<Between<'a>>>> {
-        let mut found = vec![None; self.strips.len()];
+    /// The samples of a tile in these strips, and the cross-sections between which each strip lies that may ask anything of them. Samples of strips that lie where they lay `before` are kept.
+    fn on<'a>(
+        tile: TileIndex,
+        strips: &[&Strip<'a>],
+        before: Option<&Arc<Self>>,
+        half_widths_m: [f64; 2],
+        ground: &Ground,
+    ) -> (Arc<Self>, Vec<Between<'a>>) {
+        let known = before.map_or(&[][..], |before| &before.strips);
+        // For each of the strips known before the one that is there now.
+        let mut kept = vec![None; known.len()];
+        let mut own: Vec<(&Strip, Option<usize>)> = Vec::with_capacity(strips.len());
         let mut next = 0;
         for strip in strips {
-            if let Some(between) = strip.at(tile) {
-                next += self.strips[next..].iter().position(|own| own.holds(&strip.plan))?;
-                found[next] = Some(between);
-                next += 1;
+            let place = known[next..].iter().position(|known| known.holds(&strip.plan)).map(|i| next + i);
+            if let Some(place) = place {
+                (kept[place], next) = (Some(own.len()), place + 1);
+            } else if !strip.reaches(tile, ground.grid()) {
+                continue;
             }
+            own.push((strip, place));
         }
-        Some(found)
-    }
-
-    /// The samples of a tile in these strips.
-    fn of(strips: &[&Strip], ground: &Ground, tile: TileIndex) -> Self {
-        let mut found = Vec::new();
+        // Not if one is gone: then trees may stand where it was.
+        let is_as_before = own.len() == known.len() && own.iter().all(|(_, place)| place.is_some());
+        let places = own.iter().map(|(strip, _)| strip.between).collect();
+        if let Some(before) = before.filter(|_| is_as_before) {
+            return (before.clone(), places);
+        }
         // More strips than that on one tile would be nearer to each other than cross-sections are.
-        for (i, strip) in (0..=u16::MAX).zip(strips) {
-            strip.spots(i, ground, tile, &mut found);
-        }
-        // In the order of samples: counted, then put in their places.
-        let mut next = [0_u32; TILE * TILE + 1];
-        found.iter().for_each(|spot| next[usize::from(spot.sample) + 1] += 1);
-        for i in 1..next.len() {
-            next[i] += next[i - 1];
-        }
-        let mut all = found.clone();
-        for spot in found {
-            let place = &mut next[usize::from(spot.sample)];
-            all[*place as usize] = spot;
-            *place += 1;
-        }
-        // Of what several stretches of the path ask of one sample, the nearest counts.
-        let beyond = |spot: &Spot| {
-            let side = &strips[usize::from(spot.strip)].between[0].sides[usize::from(spot.across_m < 0.0)];
-            f64::from(spot.across_m.abs()) - side.half_width_m
-        };
-        for group in all.chunk_by_mut(|a, b| a.sample == b.sample) {
-            if group.len() > 1 {
-                group.sort_by(|a, b| beyond(a).total_cmp(&beyond(b)));
+        own.truncate(usize::from(u16::MAX) + 1);
+        let mut found = Vec::new();
+        for spot in before.iter().flat_map(|before| &before.all) {
+            if let Some(strip) = kept[usize::from(spot.strip)].filter(|strip| *strip < own.len()) {
+                found.push(Spot { strip: strip as u16, ..*spot });
             }
         }
-        Self { strips: strips.iter().map(|strip| strip.wide).collect(), all }
+        for (i, (strip, _)) in own.iter().enumerate().filter(|(_, (_, place))| place.is_none()) {
+            strip.spots(i as u16, ground, tile, &mut found);
+        }
+        let plans = own.iter().map(|(strip, place)| place.map_or(strip.wide, |place| known[place]));
+        (Arc::new(Self { strips: plans.collect(), all: in_order(&found, half_widths_m) }), places)
     }
 
     /// What strips between these cross-sections ask of their samples, in order.
-    fn bounded(
-        &self,
-        strips: &[Option<Between<'_>>],
-        bed_m: f64,
-        options: &EarthworkOptions,
-        grid: &FineGrid,
-    ) -> Vec<Hit> {
-        let strips: Vec<Option<Bounds>> =
-            strips.iter().map(|strip| strip.map(|between| Bounds::of(between, bed_m, options, grid))).collect();
+    fn bounded(&self, strips: &[Between<'_>], bed_m: f64, options: &EarthworkOptions, grid: &FineGrid) -> Vec<Hit> {
+        let strips: Vec<Bounds> = strips.iter().map(|between| Bounds::of(*between, bed_m, options, grid)).collect();
         let mut hits: Vec<Hit> = Vec::with_capacity(self.all.len());
         for spot in &self.all {
             if hits.last().is_some_and(|hit| hit.sample == spot.sample) {
                 continue;
             }
-            let Some(strip) = &strips[usize::from(spot.strip)] else { continue };
-            if let Some((beyond, [low, high])) = strip.at(spot) {
+            if let Some((beyond, [low, high])) = strips[usize::from(spot.strip)].at(spot) {
                 hits.push(Hit {
                     sample: spot.sample,
                     natural_m: spot.natural_m,
@@ -319,6 +307,29 @@ impl Spots {
         hits.shrink_to_fit();
         hits
     }
+}
+
+/// Samples by their numbers, and of those at one sample the nearest to the edge of the path first: of what several stretches of it ask of one sample, the nearest counts.
+fn in_order(found: &[Spot], half_widths_m: [f64; 2]) -> Vec<Spot> {
+    // Counted, then put in their places.
+    let mut next = [0_u32; TILE * TILE + 1];
+    found.iter().for_each(|spot| next[usize::from(spot.sample) + 1] += 1);
+    for i in 1..next.len() {
+        next[i] += next[i - 1];
+    }
+    let mut all = found.to_vec();
+    for spot in found {
+        let place = &mut next[usize::from(spot.sample)];
+        all[*place as usize] = *spot;
+        *place += 1;
+    }
+    let beyond = |spot: &Spot| f64::from(spot.across_m.abs()) - half_widths_m[usize::from(spot.across_m < 0.0)];
+    for group in all.chunk_by_mut(|a, b| a.sample == b.sample) {
+        if group.len() > 1 {
+            group.sort_by(|a, b| beyond(a).total_cmp(&beyond(b)).then(a.strip.cmp(&b.strip)));
+        }
+    }
+    all
 }
 
 /// What a strip asks of its samples; what has two numbers goes evenly from the first section to the second.

@@ -81,9 +81,13 @@ fn looks(path: &Path, survey: &Survey, ground: &Heightfield, waters: &Waters) ->
     let (points, spacings_m) = if path.plan.is_closed() {
         let own: Vec<_> = own.collect();
         // A closed path that is shorter than a step has one look, and needs two.
-        if own.len() < 2 { [0.25, 0.75].map(|t| ([t * length, height(t * length)], 0.5 * length)).to_vec() } else { own }
-            .into_iter()
-            .unzip()
+        if own.len() < 2 {
+            [0.25, 0.75].map(|t| ([t * length, height(t * length)], 0.5 * length)).to_vec()
+        } else {
+            own
+        }
+        .into_iter()
+        .unzip()
     } else {
         let end = |station: f64| [([station, height(station)], 0.0)];
         end(0.0).into_iter().chain(own).chain(end(length)).unzip()
