@@ -28,6 +28,9 @@ pub(crate) struct Beam {
     /// Lengths of the intervals, m, and one over each.
     lengths: Vec<f64>,
     inverse: Vec<f64>,
+    /// Qᵀ W⁻¹ Q, of which the diagonal and two beside it are given, and Qᵀ g: what of the system below no stiffness tells.
+    given: Vec<[f64; 3]>,
+    right: Vec<f64>,
 }
 
 /// So many points come once more around a closed path.
@@ -57,10 +60,26 @@ impl Beam {
             return Err(ProfileError::Weights { points: points.len(), weights: weights.len() });
         }
         let lengths: Vec<f64> = points.windows(2).map(|pair| pair[1][0] - pair[0][0]).collect();
-        let inverse = lengths.iter().map(|h| 1.0 / h).collect();
+        let inverse: Vec<f64> = lengths.iter().map(|h| 1.0 / h).collect();
         let intervals = points.len() - if is_closed { AGAIN } else { 1 };
-        let yielding = weights.iter().map(|w| 1.0 / w).collect();
-        Ok(Self { points, intervals, is_closed, yielding, lengths, inverse })
+        let yielding: Vec<f64> = weights.iter().map(|w| 1.0 / w).collect();
+        // Green and Silverman's Q: the change of grade at the second of three points is this combination of their heights.
+        let q = |j: usize| [inverse[j], -inverse[j] - inverse[j + 1], inverse[j + 1]];
+        let rows = if is_closed { intervals } else { points.len() - 2 };
+        let row = |j: usize| {
+            let (qj, y) = (q(j), &yielding[j..j + 3]);
+            let own = qj[0] * qj[0] * y[0] + qj[1] * qj[1] * y[1] + qj[2] * qj[2] * y[2];
+            let next = (is_closed || j + 1 < rows).then(|| q(j + 1));
+            let beside = next.map_or(0.0, |next| qj[1] * next[0] * y[1] + qj[2] * next[1] * y[2]);
+            let beyond = if is_closed || j + 2 < rows { qj[2] * inverse[j + 2] * y[2] } else { 0.0 };
+            [own, beside, beyond]
+        };
+        let given = (0..rows).map(row).collect();
+        let change = |j: usize| {
+            (points[j + 2][1] - points[j + 1][1]) * inverse[j + 1] - (points[j + 1][1] - points[j][1]) * inverse[j]
+        };
+        let right = (0..rows).map(change).collect();
+        Ok(Self { points, intervals, is_closed, yielding, lengths, inverse, given, right })
     }
 
     /// How many intervals there are, each with its stiffness.
@@ -75,7 +94,7 @@ impl Beam {
 
     /// The same as knots, of which nothing is checked yet: one at each point, and around a closed path one more where it ends as it began.
     pub(crate) fn knots(&self, stiffness_m3: &[f64]) -> Result<Vec<Knot>, ProfileError> {
-        let Self { points, intervals, is_closed, yielding, lengths, inverse } = self;
+        let Self { points, intervals, is_closed, yielding, lengths, inverse, given, right } = self;
         if stiffness_m3.len() != *intervals || !stiffness_m3.iter().all(is_positive) {
             return Err(ProfileError::Stiffness { intervals: *intervals, given: stiffness_m3.len() });
         }
@@ -84,31 +103,21 @@ impl Beam {
         }
         let again = stiffness_m3.iter().take(lengths.len() - intervals);
         let flexibility: Vec<f64> = lengths.iter().zip(stiffness_m3.iter().chain(again)).map(|(h, k)| h / k).collect();
-        // Green and Silverman's Q: the change of grade at the second of three points is this combination of their heights.
-        let q = |j: usize| [inverse[j], -inverse[j] - inverse[j + 1], inverse[j + 1]];
         // (R + Qᵀ W⁻¹ Q) m = Qᵀ g for the moments m, where R has the intervals' flexibility; it has two diagonals beside the middle one.
-        let rows = if *is_closed { *intervals } else { points.len() - 2 };
-        let mut band = vec![[0.0; 3]; rows];
-        let mut right = vec![0.0; rows];
-        for j in 0..rows {
-            let (qj, y) = (q(j), &yielding[j..j + 3]);
-            right[j] = (points[j + 2][1] - points[j + 1][1]) * qj[2] - (points[j + 1][1] - points[j][1]) * qj[0];
-            band[j][0] = (flexibility[j] + flexibility[j + 1]) / 3.0
-                + (qj[0] * qj[0] * y[0] + qj[1] * qj[1] * y[1] + qj[2] * qj[2] * y[2]);
+        let rows = given.len();
+        let mut band = given.clone();
+        for (j, row) in band.iter_mut().enumerate() {
+            row[0] += (flexibility[j] + flexibility[j + 1]) / 3.0;
             if *is_closed || j + 1 < rows {
-                let next = q(j + 1);
-                band[j][1] = flexibility[j + 1] / 6.0 + qj[1] * next[0] * y[1] + qj[2] * next[1] * y[2];
-            }
-            if *is_closed || j + 2 < rows {
-                band[j][2] = qj[2] * inverse[j + 2] * y[2];
+                row[1] += flexibility[j + 1] / 6.0;
             }
         }
         // The moment at each point; a beam with ends has none there.
         let moments: Vec<f64> = if *is_closed {
-            let inner = solve_ring(band, &right);
+            let inner = solve_ring(band, right);
             [inner[rows - 1]].into_iter().chain(inner.iter().copied()).chain([inner[0]]).collect()
         } else {
-            let inner = solve_band(band, right.into_iter().map(|x| [x]).collect());
+            let inner = solve_band(band, right.iter().map(|x| [*x]).collect());
             [0.0].into_iter().chain(inner.into_iter().map(|[x]| x)).chain([0.0]).collect()
         };
         // What the beam pushes at each point: the change of its shear.

@@ -271,3 +271,39 @@ fn what_follows_does_not_depend_on_the_way_there_and_undoing_leads_back_to_the_s
     // Commands about paths are refused where there are none; most are not.
     assert!(done > 3 * refused, "{done} done, {refused} refused");
 }
+
+#[test]
+fn trees_come_back_where_one_leg_of_a_hairpin_was() {
+    let mut document = Document::new();
+    document.run(islands(), &NoFiles).unwrap();
+    let square = vec![[0.0, 0.0], [500.0, 0.0], [500.0, 500.0], [0.0, 500.0]];
+    document.run(Command::Foliage { lasso_m: square, density: 1.0 }, &NoFiles).unwrap();
+    // Both legs lie on the same tiles of the ground.
+    let bend = (0..=8).map(|i| std::f64::consts::PI / 8.0 * f64::from(i) - std::f64::consts::FRAC_PI_2);
+    let bend = bend.map(|angle| [380.0 + 12.0 * libm::cos(angle), 240.0 + 12.0 * libm::sin(angle)]);
+    let points_m = [[60.0, 228.0]].into_iter().chain(bend).chain([[60.0, 252.0]]).collect();
+    let hairpin = Command::Sketch {
+        points_m,
+        layer: "road".to_owned(),
+        name: Some("hairpin".to_owned()),
+        // It leaves the ground as it is, so that nothing about the other leg changes.
+        section: Some("pipe".to_owned()),
+        sketch_as: SketchAs::New,
+        closed: false,
+        pixel_m: 1.0,
+        min_radius_m: Some(10.0),
+    };
+    document.run(hairpin, &NoFiles).unwrap();
+    let aside = (0..=20).map(|i| {
+        let t = f64::from(i) / 20.0;
+        [340.0 - 240.0 * t, 252.0 + 80.0 * 16.0 * (t * (1.0 - t)) * (t * (1.0 - t))]
+    });
+    let leg = Command::Oversketch { points_m: aside.collect(), path: Some("hairpin".to_owned()), pixel_m: 1.0 };
+    document.run(leg, &NoFiles).unwrap();
+    let results = document.results().unwrap();
+    assert!(document.results_anew().unwrap() == **results);
+    let middle = Point::new(220.0, 252.0);
+    assert!(results.paths[0].path.plan.nearest(middle).distance > 20.0, "the leg lies elsewhere now");
+    let around = results.trees.values().flat_map(|trees| trees.iter()).filter(|t| (t.place - middle).hypot() < 10.0);
+    assert!(around.count() > 0, "and trees stand where it was");
+}

@@ -278,12 +278,8 @@ struct Place {
 /// was, they are; the ends of bridges and tunnels come in between and move none of them.
 fn places(path: &Path, survey: &Survey, structures: &[Structure], natural: &Heightfield) -> Vec<Place> {
     let course = Course::new(&path.plan);
-    // Stations have other last digits where the path became longer before them.
-    let ends = structures.iter().flat_map(|s| [s.from_m, s.to_m]).map(|station| {
-        let (segment, s) = course.locate(station);
-        (segment, (s / LEAST_M).round() * LEAST_M)
-    });
-    let mut ends: Vec<(usize, f64)> = ends.collect();
+    let ends = structures.iter().flat_map(|s| [s.from_m, s.to_m]);
+    let mut ends: Vec<(usize, f64)> = ends.map(|station| course.locate(station)).collect();
     ends.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
     let mut ends = ends.into_iter().peekable();
     let mut out: Vec<Place> = Vec::new();
@@ -293,7 +289,9 @@ fn places(path: &Path, survey: &Survey, structures: &[Structure], natural: &Heig
         let length = segment.length_m();
         let mut lines = segment.lines.clone();
         while let Some((_, s)) = ends.next_if(|end| end.0 == i) {
-            lines.insert(lines.partition_point(|line| line.s_m <= s), segment.line_at(s, natural));
+            // Stations have other last digits where the path became longer before them.
+            let line = segment.line_near(s, LEAST_M, natural);
+            lines.insert(lines.partition_point(|other| other.s_m <= line.s_m), line);
         }
         // The end is the start of the next one.
         lines.retain(|line| line.s_m < length - LEAST_M);
@@ -310,7 +308,7 @@ fn places(path: &Path, survey: &Survey, structures: &[Structure], natural: &Heig
             out.push(Place { station_m, line, carrier });
         }
         if i == last {
-            out.push(Place { station_m: start + length, line: segment.line_at(length, natural), carrier });
+            out.push(Place { station_m: start + length, line: segment.last_line(natural), carrier });
         }
     }
     out

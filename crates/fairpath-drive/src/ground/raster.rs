@@ -290,11 +290,13 @@ impl Spots {
     fn bounded(&self, strips: &[Between<'_>], bed_m: f64, options: &EarthworkOptions, grid: &FineGrid) -> Vec<Hit> {
         let strips: Vec<Bounds> = strips.iter().map(|between| Bounds::of(*between, bed_m, options, grid)).collect();
         let mut hits: Vec<Hit> = Vec::with_capacity(self.all.len());
+        let mut last = None;
         for spot in &self.all {
-            if hits.last().is_some_and(|hit| hit.sample == spot.sample) {
+            if last == Some(spot.sample) {
                 continue;
             }
             if let Some((beyond, [low, high])) = strips[usize::from(spot.strip)].at(spot) {
+                last = Some(spot.sample);
                 hits.push(Hit {
                     sample: spot.sample,
                     natural_m: spot.natural_m,
@@ -332,11 +334,11 @@ fn in_order(found: &[Spot], half_widths_m: [f64; 2]) -> Vec<Spot> {
     all
 }
 
-/// What a strip asks of its samples; what has two numbers goes evenly from the first section to the second.
+/// What a strip asks of its samples.
 struct Bounds {
     /// Whether it shapes the ground: a bridge or a pipe asks nothing of it, but no tree shall stand under them.
     shapes: bool,
-    surface_m: [f64; 2],
+    surface_m: Even,
     /// The rest of the design, with no height yet.
     design: Design,
     /// Left and right.
@@ -345,9 +347,23 @@ struct Bounds {
 
 struct SideBounds {
     half_width_m: f64,
-    reach_m: [f64; 2],
-    fill: [f64; 2],
-    cut: [f64; 2],
+    reach_m: Even,
+    fill: Even,
+    cut: Even,
+}
+
+/// What goes evenly from the first section to the second: what it is at the first, and by how much more at the second.
+struct Even([f64; 2]);
+
+impl Even {
+    fn between(from: f64, to: f64) -> Self {
+        Self([from, to - from])
+    }
+
+    #[inline]
+    fn at(&self, share: f64) -> f64 {
+        self.0[0] + share * self.0[1]
+    }
 }
 
 impl Bounds {
@@ -359,14 +375,14 @@ impl Bounds {
             let [[fill_a, cut_a], [fill_b, cut_b]] = [a.slopes(), b.slopes()];
             SideBounds {
                 half_width_m: a.half_width_m,
-                reach_m: [furthest(a) + spare, furthest(b) + spare],
-                fill: [fill_a, fill_b],
-                cut: [cut_a, cut_b],
+                reach_m: Even::between(furthest(a) + spare, furthest(b) + spare),
+                fill: Even::between(fill_a, fill_b),
+                cut: Even::between(cut_a, cut_b),
             }
         };
         Self {
             shapes: a.on_ground && b.on_ground,
-            surface_m: [a.height_m, b.height_m],
+            surface_m: Even::between(a.height_m, b.height_m),
             design: Design { surface_m: 0.0, bed_m, verge_m: options.verge_m, drop_m: options.verge_drop_m },
             sides: [side(0), side(1)],
         }
@@ -376,16 +392,15 @@ impl Bounds {
     #[inline]
     fn at(&self, spot: &Spot) -> Option<(f64, [f64; 2])> {
         let u = f64::from(spot.along);
-        let lerp = |[from, to]: [f64; 2]| from + u * (to - from);
         let side = &self.sides[usize::from(spot.across_m < 0.0)];
         let across = f64::from(spot.across_m.abs());
-        if across > lerp(side.reach_m) {
+        if across > side.reach_m.at(u) {
             return None;
         }
         let beyond = across - side.half_width_m;
         let bounds = if self.shapes {
-            let design = Design { surface_m: lerp(self.surface_m), ..self.design };
-            design.bounds(beyond, [lerp(side.fill), lerp(side.cut)])
+            let design = Design { surface_m: self.surface_m.at(u), ..self.design };
+            design.bounds(beyond, [side.fill.at(u), side.cut.at(u)])
         } else {
             [f64::NEG_INFINITY, f64::INFINITY]
         };

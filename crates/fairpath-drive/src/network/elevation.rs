@@ -70,13 +70,12 @@ struct Looks {
     spacings_m: Vec<f64>,
 }
 
-/// The heights of the ground along a path, in equal steps along each segment of its plan: where the plan is as it was, so are they, however long the path became elsewhere.
+/// The heights of the ground along a path and at its ends.
 fn looks(path: &Path, survey: &Survey, ground: &Heightfield, waters: &Waters) -> Looks {
     let length = path.length_m();
     let height = |station: f64| followed_m(path.plan.point_at(station), ground, waters);
     let own = survey.segments().flat_map(|(start, segment)| {
-        let spacing = segment.look_spacing_m();
-        segment.looks.iter().map(move |[s, z]| ([start + s, *z], spacing))
+        segment.looks.iter().map(move |look| ([start + look.s_m, look.height_m], look.spacing_m))
     });
     let (points, spacings_m) = if path.plan.is_closed() {
         let own: Vec<_> = own.collect();
