@@ -211,8 +211,11 @@ fn cuts(segment: &Segment, from_m: f64) -> Vec<f64> {
         let longest = (8.0 * CHORD_M / most).sqrt().min(MOST_TURN / most);
         let parts = (LINE_M * (1.0 + HAIR) / longest).ceil().max(1.0);
         let part = LINE_M / parts;
-        let within = HAIR * part..=segment.length - HAIR * part;
-        cuts.extend((0..parts as usize).map(|k| from + k as f64 * part).filter(|s| within.contains(s)));
+        // Of a short and sharp clothoid there are many parts beyond its ends.
+        let first = ((HAIR * part - from) / part).ceil().max(0.0);
+        let within = |k: &f64| *k < parts && from + k * part <= segment.length - HAIR * part;
+        let k = (0_u32..).map(|k| first + f64::from(k)).take_while(within);
+        cuts.extend(k.map(|k| from + k * part));
     }
     cuts
 }
@@ -256,6 +259,14 @@ mod tests {
         };
         // The first is where the part begins.
         part[1..].iter().filter(|own| !is_there(own)).count()
+    }
+
+    #[test]
+    fn a_sharp_and_short_clothoid_has_few_cross_sections() {
+        let start = Point::new(900.0, 900.0);
+        let sliver = Segment { start, heading: 1.0, length: 1e-6, kappa0: -1.0, kappa1: 1.0 };
+        let surveyed = SurveyedSegment::of(&sliver, &ground(), &Waters::default());
+        assert!(surveyed.lines.len() < 100, "{} on a segment of a micrometre", surveyed.lines.len());
     }
 
     proptest! {
