@@ -2,7 +2,7 @@
 //!
 //! Each segment of the plan is surveyed by itself: of a path that was drawn over only the segments that are new are surveyed again, however long the path is. And what is left of a segment
 //! that was cut is looked at where it was looked at before: the marks at which it is lie along the whole line, arc or clothoid of which the segment is a part, and places are told in steps
-//! that rounding does not reach. So nothing moves that was not drawn over: no abutment, no cross-section, and no height but by what a profile leads over.
+//! that rounding does not reach. So no cross-section moves that was not drawn over, and no height but by what a profile leads over.
 
 use crate::terrain::{Heightfield, Waters};
 use fairpath_curve::{Kind, Point, Segment, Spline, Vec2, trig};
@@ -25,15 +25,18 @@ const CHORD_M: f64 = 0.07;
 const MOST_TURN: f64 = 1.4;
 
 /// A mark that is nearer to an end of its segment than this share of what lies between marks is none.
-const HAIR: f64 = 0.2;
+const HAIR: f64 = 0.1;
 
 /// Places are told in steps of this, m, directions and curvatures in steps of these.
 const PLACE_M: f64 = 1.0 / 65_536.0;
 const DIRECTION: f64 = 1.0 / (1_u64 << 30) as f64;
 const CURVATURE_PER_M: f64 = 1.0 / (1_u64 << 40) as f64;
 
-/// Marks that are so far from the one with the number 0 are not known to a fraction of a millimetre, m.
-const FURTHEST_M: f64 = 1e9;
+/// A segment that begins so far from the mark with the number 0 has marks of its own, m: where they are on the whole of it rounding would tell.
+const FURTHEST_M: f64 = 1e6;
+
+/// Into no more parts a step between cross-sections is divided.
+const MOST_PARTS: f64 = 5000.0;
 
 /// A path over water lies this much above it, m.
 pub(crate) const FREEBOARD_M: f64 = 2.0;
@@ -209,7 +212,7 @@ fn cuts(segment: &Segment, from_m: f64) -> Vec<f64> {
         let most = [from, to].map(|s| (segment.kappa0 + sharpness * s).abs());
         let most = most[0].max(most[1]);
         let longest = (8.0 * CHORD_M / most).sqrt().min(MOST_TURN / most);
-        let parts = (LINE_M * (1.0 + HAIR) / longest).ceil().max(1.0);
+        let parts = (LINE_M * (1.0 + HAIR) / longest).ceil().clamp(1.0, MOST_PARTS);
         let part = LINE_M / parts;
         // Of a short and sharp clothoid there are many parts beyond its ends.
         let first = ((HAIR * part - from) / part).ceil().max(0.0);
@@ -226,7 +229,8 @@ fn told(place: Point) -> Point {
 }
 
 fn rounded(x: f64, step: f64) -> f64 {
-    (x / step).round() * step
+    // Not the nothing that is negative.
+    (x / step).round() * step + 0.0
 }
 
 /// The height that a profile follows at a place, m: of the ground, without its creases, or of the water with freeboard.
@@ -245,7 +249,7 @@ mod tests {
         SyntheticTerrain { landscape: Landscape::Hills, size: 129, cell_m: 16.0, seed: 3 }.build().unwrap()
     }
 
-    /// Of `part`, which begins so far from the start of the whole, the first after its start, the last, and how many there are that the whole does not have, or only elsewhere.
+    /// How many there are of `part`, which begins so far from the start of the whole, that the whole does not have, or only elsewhere.
     fn strange<T>(
         whole: &[T],
         part: &[T],

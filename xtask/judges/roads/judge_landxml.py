@@ -3,8 +3,8 @@
 
 Each Line, Curve and Spiral is walked by its length and radii from its Start, along the heading that the pieces before it lead to, and must
 reach its End within 1 mm; spirals by scipy's Fresnel integrals. Points are northing, easting, as LandXML has them; `rot` is as seen from
-above. The pieces must be joined, their lengths add up to the alignment's, and a profile's points follow each other. `fault:` and
-`warning:` lines are for people, the `note:` line comes last; ends with 1 if there is a fault.
+above. The pieces must be joined, their lengths add up to the alignment's, and a profile's points follow each other. Points of a surface have
+ids of their own, triangles three of them. `fault:` and `warning:` lines are for people, the `note:` line comes last; ends with 1 if there is a fault.
 """
 import math
 import sys
@@ -13,6 +13,7 @@ import xml.etree.ElementTree as ElementTree
 from clothoid import clothoid_end, turned
 
 GAP_M, GAP_RAD = 1e-3, 1e-3
+MOST_POINTS = 100_000_000
 faults, warnings = [], []
 
 
@@ -138,12 +139,28 @@ def judge_profile(where, design):
 
 
 def read_alignments(file):
-    """The alignments of a file, without holding in memory the surfaces, which are most of it."""
-    alignments = []
+    """The alignments of a file, without holding in memory the surfaces, which are most of it. Points of a surface must have ids of their own, and triangles three of these."""
+    alignments, points = [], bytearray()
     for _, element in ElementTree.iterparse(file):
-        if local(element) == "Alignment":
+        kind = local(element)
+        if kind == "Alignment":
             alignments.append(element)
-        elif local(element) in ("P", "F"):
+        elif kind == "Surface":
+            points = bytearray()
+        elif kind == "P":
+            own = int(element.get("id", "0"))
+            if not 0 < own <= MOST_POINTS:
+                raise ValueError(f"a point of a surface has the id {own}")
+            if own >= len(points):
+                points.extend(bytes(own + 1 - len(points)))
+            if points[own]:
+                raise ValueError(f"two points of a surface have the id {own}")
+            points[own] = 1
+            element.clear()
+        elif kind == "F":
+            corners = [int(word) for word in (element.text or "").split()]
+            if not all(0 < corner < len(points) and points[corner] for corner in corners) or len(set(corners)) != 3:
+                raise ValueError(f"a triangle of a surface has the corners {corners}")
             element.clear()
     return alignments
 

@@ -48,7 +48,7 @@ impl Damage {
 
 const EVERY_READER: &[&str] = &["plan", "asam", "maliput", "sumo", "carla"];
 
-const DAMAGES: [Damage; 19] = [
+const DAMAGES: [Damage; 22] = [
     Damage { what: "cut off", file: "junction.xodr", seen_by: EVERY_READER, make: cut },
     Damage {
         what: "a geometry moved by 1 m",
@@ -127,6 +127,28 @@ const DAMAGES: [Damage; 19] = [
         file: "spirals.xml",
         seen_by: &["alignments", "xmllint"],
         make: |text| exchanged(text, "<Curve rot=\"ccw\"", "<Curve"),
+    },
+    Damage {
+        what: "two points of a surface with one id",
+        file: "spirals.xml",
+        seen_by: &["alignments"],
+        make: |text| exchanged(text, "<P id=\"2\"", "<P id=\"1\""),
+    },
+    Damage {
+        what: "a triangle with a corner that is not there",
+        file: "spirals.xml",
+        seen_by: &["alignments"],
+        make: |text| exchanged(text, "<F>1 2 3", "<F>1 2 4"),
+    },
+    Damage {
+        what: "two surfaces of one name",
+        file: "spirals.xml",
+        seen_by: &["xmllint"],
+        make: |text| {
+            let from = text.find("<Surface ")?;
+            let to = text.find("</Surfaces>")?;
+            Some(text.replacen("</Surfaces>", &format!("{}</Surfaces>", &text[from..to]), 1))
+        },
     },
     Damage {
         what: "an arc of another radius",

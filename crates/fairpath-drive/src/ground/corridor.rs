@@ -179,7 +179,7 @@ fn bare_sections(
             point: line.point,
             left: line.left,
             curvature: line.curvature,
-            height_m: (profile.at(station_m).height_m / HEIGHT_STEP_M).round() * HEIGHT_STEP_M,
+            height_m: (profile.at(station_m).height_m / HEIGHT_STEP_M).round() * HEIGHT_STEP_M + 0.0,
             natural_m: line.natural_m,
             on_ground: carrier.is_none() && path.section.shapes_ground,
             covered: carrier == Some(Carrier::Tunnel),

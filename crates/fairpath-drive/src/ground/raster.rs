@@ -178,6 +178,15 @@ fn furthest(side: &Side) -> f64 {
 /// Sides are looked at this much further than they reach, m: as long as a slope reaches no further, the samples beside it are the same.
 const LOOK_M: f64 = 5.0;
 
+/// Distances of samples are rounded to less, m.
+const ROUNDING_M: f64 = 1e-3;
+
+/// Sections that turn by more from one to the next are taken for turning by as much: twice the angle of this cosine.
+const LEAST_COSINE: f64 = 0.1;
+
+/// Where a strip is no part of a ring its edge lies no further out, m.
+const BULGE_M: f64 = 0.05;
+
 impl StripPlan {
     /// The plan of the strip between two cross-sections, if it can ask anything of the ground.
     fn of([a, b]: [&CrossSection; 2], grid: &FineGrid) -> Option<Self> {
@@ -193,9 +202,9 @@ impl StripPlan {
         Self { looked_m: self.looked_m.map(|looked| looked + LOOK_M), ..self }
     }
 
-    /// Whether a strip with this plan has all samples of one with the other.
+    /// Whether a strip with this plan has all samples of one with the other, however their distances are rounded.
     fn holds(&self, other: &Self) -> bool {
-        self.between == other.between && (0..2).all(|i| self.looked_m[i] >= other.looked_m[i])
+        self.between == other.between && (0..2).all(|i| self.looked_m[i] >= other.looked_m[i] + ROUNDING_M)
     }
 
     /// The first and the last tile by column and row between which it lies; nothing beside the terrain.
@@ -207,7 +216,9 @@ impl StripPlan {
     /// The columns and rows of the grid between which it lies.
     fn reached(&self, grid: &FineGrid) -> Option<[[usize; 2]; 2]> {
         let [(a, left_a), (b, left_b)] = self.between;
-        let [left, right] = self.looked_m;
+        // Between two sections that turn, what is no further than they reach bulges beyond the line between their ends.
+        let cosine = (0.5 * (left_a + left_b).hypot2().sqrt()).max(LEAST_COSINE);
+        let [left, right] = self.looked_m.map(|looked| looked / cosine + BULGE_M);
         grid.samples_around(&[a + left_a * left, a - left_a * right, b + left_b * left, b - left_b * right])
     }
 }
@@ -271,7 +282,7 @@ impl Spots {
         if let Some(before) = before.filter(|_| is_as_before) {
             return (before.clone(), places);
         }
-        // More strips than that on one tile would be nearer to each other than cross-sections are.
+        // No more strips are told apart on one tile: what lies there so often is no road.
         own.truncate(usize::from(u16::MAX) + 1);
         let mut found = Vec::new();
         for spot in before.iter().flat_map(|before| &before.all) {
@@ -462,6 +473,49 @@ impl Strip<'_> {
                 let across_m = if is_right { -across } else { across } as f32;
                 let natural_m = ground.natural_at([column, row]) as f32;
                 found.push(Spot { sample, strip, along: u as f32, across_m, natural_m });
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::terrain::{Heightfield, Samples};
+    use fairpath_curve::trig;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn no_sample_that_a_strip_looks_at_lies_outside_of_its_box(
+            heading in -3.2..3.2_f64, radius in 1.0..60.0_f64, turn in -0.7..0.7_f64, looked in [0.5..60.0_f64, 0.5..60.0_f64],
+        ) {
+            let natural = Heightfield::new([161, 161], Point::ORIGIN, Vec2::new(1.0, 1.0), Samples::F32(vec![0.0; 161 * 161]));
+            let grid = FineGrid::of(&natural.unwrap());
+            let section = |angle: f64| {
+                let (from, to) = (trig::unit(heading), trig::unit(heading + angle));
+                let point = Point::new(80.0, 80.0) + Vec2::new(to.y - from.y, from.x - to.x) * (radius * turn.signum());
+                (point, Vec2::new(-to.y, to.x))
+            };
+            let plan = StripPlan { between: [section(0.0), section(turn)], looked_m: looked };
+            let [(a, left_a), (b, left_b)] = plan.between;
+            let along = |left: Vec2| Vec2::new(left.y, -left.x);
+            let reached = plan.reached(&grid);
+            for (column, row) in (0..161).flat_map(|column| (0..161).map(move |row| (column, row))) {
+                let p = grid.place([column, row]);
+                let (da, db) = ((p - a).dot(along(left_a)), (p - b).dot(along(left_b)));
+                if da < 0.0 || db > 0.0 || da == db {
+                    continue;
+                }
+                let u = da / (da - db);
+                let off = p - a.lerp(b, u);
+                let side = usize::from(off.dot(left_a.lerp(left_b, u)) < 0.0);
+                if off.hypot() <= looked[side] {
+                    let is_in = reached.is_some_and(|[columns, rows]| {
+                        (columns[0]..=columns[1]).contains(&column) && (rows[0]..=rows[1]).contains(&row)
+                    });
+                    prop_assert!(is_in, "{p:?} is not in {reached:?}");
+                }
             }
         }
     }
