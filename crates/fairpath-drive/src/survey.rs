@@ -2,7 +2,7 @@
 //!
 //! Each segment of the plan is surveyed by itself: of a path that was drawn over only the segments that are new are surveyed again, however long the path is. And what is left of a segment
 //! that was cut is looked at where it was looked at before: the marks at which it is lie along the whole line, arc or clothoid of which the segment is a part, and places are told in steps
-//! that rounding does not reach. So no cross-section moves that was not drawn over, and no height but by what a profile leads over.
+//! far above rounding. So no cross-section moves that was not drawn over, and no height but by what a profile leads over.
 
 use crate::terrain::{Heightfield, Waters};
 use fairpath_curve::{Kind, Point, Segment, Spline, Vec2, trig};

@@ -176,7 +176,7 @@ fn furthest(side: &Side) -> f64 {
 }
 
 /// Sides are looked at this much further than they reach, m: as long as a slope reaches no further, the samples beside it are the same.
-const LOOK_M: f64 = 5.0;
+const SLACK_M: f64 = 5.0;
 
 /// Distances of samples are rounded to less, m.
 const ROUNDING_M: f64 = 1e-3;
@@ -199,7 +199,7 @@ impl StripPlan {
 
     /// The same, looked at further.
     fn wider(self) -> Self {
-        Self { looked_m: self.looked_m.map(|looked| looked + LOOK_M), ..self }
+        Self { looked_m: self.looked_m.map(|looked| looked + SLACK_M), ..self }
     }
 
     /// Whether a strip with this plan has all samples of one with the other, however their distances are rounded.
@@ -488,16 +488,15 @@ mod tests {
     proptest! {
         #[test]
         fn no_sample_that_a_strip_looks_at_lies_outside_of_its_box(
-            heading in -3.2..3.2_f64, radius in 1.0..60.0_f64, turn in -0.7..0.7_f64, looked in [0.5..60.0_f64, 0.5..60.0_f64],
+            heading in -3.2..3.2_f64, radius in 1.0..60.0_f64, turn in -0.7..0.7_f64, share in 0.3..0.7_f64, looked in [0.5..60.0_f64, 0.5..60.0_f64],
         ) {
             let natural = Heightfield::new([161, 161], Point::ORIGIN, Vec2::new(1.0, 1.0), Samples::F32(vec![0.0; 161 * 161]));
             let grid = FineGrid::of(&natural.unwrap());
-            let section = |angle: f64| {
-                let (from, to) = (trig::unit(heading), trig::unit(heading + angle));
-                let point = Point::new(80.0, 80.0) + Vec2::new(to.y - from.y, from.x - to.x) * (radius * turn.signum());
-                (point, Vec2::new(-to.y, to.x))
-            };
-            let plan = StripPlan { between: [section(0.0), section(turn)], looked_m: looked };
+            // From the one to the other as along a clothoid that begins or ends straight, or along anything between these.
+            let chord = trig::unit(heading + share * turn) * (radius * turn.abs());
+            let left = |angle: f64| Vec2::new(-trig::unit(heading + angle).y, trig::unit(heading + angle).x);
+            let start = Point::new(80.0, 80.0);
+            let plan = StripPlan { between: [(start, left(0.0)), (start + chord, left(turn))], looked_m: looked };
             let [(a, left_a), (b, left_b)] = plan.between;
             let along = |left: Vec2| Vec2::new(left.y, -left.x);
             let reached = plan.reached(&grid);
