@@ -184,9 +184,6 @@ const ROUNDING_M: f64 = 1e-3;
 /// Sections that turn by more from one to the next are taken for turning by as much: twice the angle of this cosine.
 const LEAST_COSINE: f64 = 0.1;
 
-/// Where a strip is no part of a ring its edge lies no further out, m.
-const BULGE_M: f64 = 0.05;
-
 impl StripPlan {
     /// The plan of the strip between two cross-sections, if it can ask anything of the ground.
     fn of([a, b]: [&CrossSection; 2], grid: &FineGrid) -> Option<Self> {
@@ -218,7 +215,7 @@ impl StripPlan {
         let [(a, left_a), (b, left_b)] = self.between;
         // Between two sections that turn, what is no further than they reach bulges beyond the line between their ends.
         let cosine = (0.5 * (left_a + left_b).hypot2().sqrt()).max(LEAST_COSINE);
-        let [left, right] = self.looked_m.map(|looked| looked / cosine + BULGE_M);
+        let [left, right] = self.looked_m.map(|looked| looked / cosine + ROUNDING_M);
         grid.samples_around(&[a + left_a * left, a - left_a * right, b + left_b * left, b - left_b * right])
     }
 }
