@@ -40,6 +40,7 @@ mod rules;
 mod scene;
 mod section;
 mod smoothing;
+mod sparse;
 mod survey;
 mod terrain;
 

@@ -1,53 +1,63 @@
 //! A convex quadratic program: costs and rows are put in one by one, the least cost comes out.
 
-use clarabel::algebra::CscMatrix;
-use clarabel::solver::{DefaultSettings, DefaultSolver, IPSolver, NonnegativeConeT, SolverStatus, ZeroConeT};
-
-/// How near the solver comes to the least cost and to the limits, as shares of their size.
-const TOLERANCE: f64 = 1e-9;
-
-/// How near it must come to be of any use, where rounding keeps it from coming nearer.
-const REDUCED_TOLERANCE: f64 = 1e-6;
-
-/// Most iterations; there are about twenty.
-const MOST_ITERATIONS: u32 = 200;
+use super::{general, interior};
 
 /// The program to make ½ xᵀP x + qᵀx least where rows of x are equal to, or at most, given values.
 #[derive(Debug, Default)]
 pub(super) struct Program {
-    linear: Vec<f64>,
-    quadratic: Triplets,
-    equal: Rows,
-    at_most: Rows,
+    /// q.
+    pub(super) linear: Vec<f64>,
+    /// Entries of P on and above its diagonal, as row, column and value; what stands at one place is added up.
+    pub(super) quadratic: Vec<(usize, usize, f64)>,
+    pub(super) equal: Rows,
+    pub(super) at_most: Rows,
 }
 
+/// Rows with few terms each, and their values.
 #[derive(Debug, Default)]
-struct Triplets {
-    rows: Vec<usize>,
-    columns: Vec<usize>,
-    values: Vec<f64>,
-}
-
-impl Triplets {
-    fn push(&mut self, row: usize, column: usize, value: f64) {
-        self.rows.push(row);
-        self.columns.push(column);
-        self.values.push(value);
-    }
-}
-
-#[derive(Debug, Default)]
-struct Rows {
-    entries: Triplets,
-    values: Vec<f64>,
+pub(super) struct Rows {
+    ends: Vec<usize>,
+    terms: Vec<(usize, f64)>,
+    pub(super) values: Vec<f64>,
 }
 
 impl Rows {
     fn push(&mut self, terms: impl IntoIterator<Item = (usize, f64)>, value: f64) -> usize {
-        let row = self.values.len();
-        terms.into_iter().for_each(|(unknown, factor)| self.entries.push(row, unknown, factor));
+        self.terms.extend(terms);
+        self.ends.push(self.terms.len());
         self.values.push(value);
-        row
+        self.values.len() - 1
+    }
+
+    /// How many there are.
+    pub(super) fn count(&self) -> usize {
+        self.values.len()
+    }
+
+    /// The unknowns of a row with their factors; an unknown may come more than once.
+    pub(super) fn terms(&self, row: usize) -> &[(usize, f64)] {
+        let begin = row.checked_sub(1).map_or(0, |before| self.ends[before]);
+        &self.terms[begin..self.ends[row]]
+    }
+
+    /// Each row's sum for these unknowns.
+    pub(super) fn times(&self, x: &[f64]) -> Vec<f64> {
+        let mut begin = 0;
+        let sum = |&end: &usize| {
+            let terms = &self.terms[begin..end];
+            begin = end;
+            terms.iter().fold(0.0, |sum, &(unknown, factor)| sum + factor * x[unknown])
+        };
+        self.ends.iter().map(sum).collect()
+    }
+
+    /// Adds each row, times its number, to unknowns.
+    pub(super) fn add_transposed(&self, numbers: &[f64], x: &mut [f64]) {
+        let mut begin = 0;
+        for (&end, number) in self.ends.iter().zip(numbers) {
+            self.terms[begin..end].iter().for_each(|&(unknown, factor)| x[unknown] += factor * number);
+            begin = end;
+        }
     }
 }
 
@@ -62,7 +72,7 @@ pub(super) struct Outcome {
     pub(super) at_most: Vec<f64>,
     /// How it ended.
     pub(super) end: End,
-    /// What the solver calls that.
+    /// The same in words, for who wants to know why there is no solution.
     pub(super) status: String,
     /// How many iterations it took.
     pub(super) iterations: u32,
@@ -96,11 +106,11 @@ impl Program {
     pub(super) fn square(&mut self, terms: &[(usize, f64)], offset: f64, cost: f64) {
         for (i, &(a, fa)) in terms.iter().enumerate() {
             self.linear[a] += cost * fa * offset;
-            self.quadratic.push(a, a, cost * fa * fa);
+            self.quadratic.push((a, a, cost * fa * fa));
             for &(b, fb) in &terms[i + 1..] {
                 // Only the half above the diagonal is given, where the two of a mixed product are one entry.
                 let products = if a == b { 2.0 } else { 1.0 };
-                self.quadratic.push(a.min(b), a.max(b), products * cost * fa * fb);
+                self.quadratic.push((a.min(b), a.max(b), products * cost * fa * fb));
             }
         }
     }
@@ -115,65 +125,85 @@ impl Program {
         self.at_most.push(terms, value)
     }
 
-    /// The unknowns that cost least.
-    pub(super) fn solve(self) -> Outcome {
-        let count = self.linear.len();
-        let Triplets { rows, columns, values } = self.quadratic;
-        let quadratic = CscMatrix::new_from_triplets(count, count, rows, columns, values);
-        let equations = self.equal.values.len();
-        let Triplets { mut rows, mut columns, mut values } = self.equal.entries;
-        rows.extend(self.at_most.entries.rows.iter().map(|row| equations + row));
-        columns.extend(self.at_most.entries.columns);
-        values.extend(self.at_most.entries.values);
-        let mut limits = self.equal.values;
-        limits.extend(self.at_most.values);
-        let matrix = CscMatrix::new_from_triplets(limits.len(), count, rows, columns, values);
-        let cones = [ZeroConeT(equations), NonnegativeConeT(limits.len() - equations)];
-        match DefaultSolver::new(&quadratic, &self.linear, &matrix, &limits, &cones, settings()) {
-            Ok(mut solver) => {
-                solver.solve();
-                let solution = solver.solution;
-                let end = match solution.status {
-                    SolverStatus::Solved | SolverStatus::AlmostSolved => End::Solved,
-                    SolverStatus::PrimalInfeasible | SolverStatus::AlmostPrimalInfeasible => End::Infeasible,
-                    _ => End::Unsettled,
-                };
-                let (equal, at_most) = solution.z.split_at(equations);
-                Outcome {
-                    end,
-                    equal: equal.to_vec(),
-                    at_most: at_most.to_vec(),
-                    status: solution.status.to_string(),
-                    iterations: solution.iterations,
-                    x: solution.x,
-                }
-            }
-            Err(error) => Outcome {
-                x: vec![0.0; count],
-                equal: vec![0.0; equations],
-                at_most: vec![0.0; limits.len() - equations],
-                end: End::Unsettled,
-                status: error.to_string(),
-                iterations: 0,
-            },
+    /// The unknowns that cost least, by the method that makes use of how few terms each row has, and where rounding keeps that from an end by the general one.
+    pub(super) fn solve(&self) -> Outcome {
+        let outcome = interior::solve(self);
+        if outcome.end != End::Unsettled {
+            return outcome;
         }
+        let other = general::solve(self);
+        Outcome { iterations: outcome.iterations + other.iterations, ..other }
     }
 }
 
-/// The solver's own, but for what this file names. No limit of time is set, so what its clock tells changes nothing.
-fn settings() -> DefaultSettings<f64> {
-    DefaultSettings {
-        verbose: false,
-        max_iter: MOST_ITERATIONS,
-        time_limit: f64::INFINITY,
-        tol_gap_abs: TOLERANCE,
-        tol_gap_rel: TOLERANCE,
-        tol_feas: TOLERANCE,
-        reduced_tol_gap_abs: REDUCED_TOLERANCE,
-        reduced_tol_gap_rel: REDUCED_TOLERANCE,
-        reduced_tol_feas: REDUCED_TOLERANCE,
-        direct_solve_method: "qdldl".to_owned(),
-        max_threads: 1,
-        ..DefaultSettings::default()
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    type Terms = Vec<(usize, f64)>;
+
+    /// A few of so many unknowns, with factors.
+    fn terms(count: usize) -> impl Strategy<Value = Terms> {
+        prop::collection::vec((0..count, -2.0..2.0_f64), 1..4)
+    }
+
+    fn cost(program: &Program, x: &[f64]) -> f64 {
+        let linear: f64 = program.linear.iter().zip(x).map(|(q, x)| q * x).sum();
+        let square = |&(i, j, value): &(usize, usize, f64)| if i == j { 0.5 } else { 1.0 } * value * x[i] * x[j];
+        linear + program.quadratic.iter().map(square).sum::<f64>()
+    }
+
+    proptest! {
+        #[test]
+        fn both_methods_come_to_the_same_end(
+            linear in prop::collection::vec(-3.0..3.0_f64, 12),
+            squares in prop::collection::vec((terms(12), -2.0..2.0_f64, 0.01..3.0_f64), 0..8),
+            equal in prop::collection::vec((terms(12), -2.0..2.0_f64), 0..4),
+            twice in any::<bool>(),
+            at_most in prop::collection::vec((terms(12), -1.0..3.0_f64), 0..16),
+        ) {
+            let mut program = Program::default();
+            program.unknowns(linear.len());
+            for (i, q) in linear.iter().enumerate() {
+                program.cost(i, *q);
+                // Whatever else there is, the cost has a bound, and the unknowns have too.
+                program.square(&[(i, 1.0)], 0.0, 1e-3);
+                program.at_most([(i, 1.0)], 100.0);
+                program.at_most([(i, -1.0)], 100.0);
+            }
+            squares.iter().for_each(|(terms, offset, cost)| program.square(terms, *offset, *cost));
+            // Equations that say the same twice are no contradiction.
+            for (terms, value) in equal.iter().chain(equal.iter().take(usize::from(twice))) {
+                program.equal(terms.iter().copied(), *value);
+            }
+            at_most.iter().for_each(|(terms, value)| { program.at_most(terms.iter().copied(), *value); });
+            let (own, other) = (interior::solve(&program), general::solve(&program));
+            prop_assert!(own.end == other.end || own.end == End::Unsettled, "{:?} {:?}", own, other);
+            if own.end == End::Solved {
+                let [a, b] = [&own, &other].map(|outcome| cost(&program, &outcome.x));
+                prop_assert!((a - b).abs() <= 1e-6 * a.abs().max(1.0), "{a} {b}");
+                for (sum, value) in program.at_most.times(&own.x).iter().zip(&program.at_most.values) {
+                    prop_assert!(sum - value <= 1e-7);
+                }
+                for (sum, value) in program.equal.times(&own.x).iter().zip(&program.equal.values) {
+                    prop_assert!((sum - value).abs() <= 1e-7);
+                }
+                // Prices: what a little more room in a row saves.
+                let gradient = |x: &[f64]| {
+                    let mut sum = program.linear.clone();
+                    for &(i, j, value) in &program.quadratic {
+                        sum[i] += value * x[j];
+                        sum[j] += if i == j { 0.0 } else { value * x[i] };
+                    }
+                    sum
+                };
+                let mut off = gradient(&own.x);
+                program.equal.add_transposed(&own.equal, &mut off);
+                program.at_most.add_transposed(&own.at_most, &mut off);
+                prop_assert!(off.iter().all(|off| off.abs() < 1e-5), "{off:?}");
+                prop_assert!(own.at_most.iter().all(|price| *price >= 0.0));
+            }
+        }
     }
 }

@@ -8,6 +8,5 @@
 mod descent;
 mod order;
 mod problem;
-mod sparse;
 
 pub use problem::{CrossingHeights, HeightError, HeightPoint, Heights, Over, PathPoints};

@@ -1,7 +1,7 @@
 //! What is asked and what comes of it: the sum that the heights shall make small, and its minimum.
 
 use super::order::{levels, places};
-use super::sparse::{Factor, Pattern};
+use crate::sparse::{Factor, Pattern};
 use thiserror::Error;
 
 /// The points of one path at which its height is wanted: its crossings.

