@@ -69,7 +69,7 @@ pub struct Results {
     /// Crossings by pairs, as if nothing had been said about them.
     pairs: Pairs,
     /// The trees that there would be without paths and water.
-    wild: Wood,
+    wild: Arc<Wood>,
 }
 
 impl Results {
@@ -219,7 +219,7 @@ fn derived(before: Option<(&State, &Results)>, state: &State, terrain: &LaidTerr
         &paths,
         &junctions,
     );
-    let [wild, trees] = planted(before, state, terrain, &paths, &ground, &dirty);
+    let (wild, trees) = planted(before, state, terrain, &paths, &ground, &dirty);
     Results { paths, crossings, junctions, signs, trees, ground, unordered, pairs, wild }
 }
 
@@ -317,16 +317,19 @@ fn planted(
     paths: &[Arc<PathResult>],
     ground: &Ground,
     dirty: &Dirty,
-) -> [Wood; 2] {
+) -> (Arc<Wood>, Wood) {
     let grid = ground.grid();
     let before = before.filter(|(old, _)| old.settings.seed == state.settings.seed);
-    let [mut wild, mut trees] = before.map(|(_, r)| [r.wild.clone(), r.trees.clone()]).unwrap_or_default();
+    let (mut wild, mut trees) = before.map(|(_, r)| (r.wild.clone(), r.trees.clone())).unwrap_or_default();
     let old_regions = before.map_or(&[][..], |(old, _)| &old.foliage);
     let is_in = |regions: &[Arc<FoliageRegion>], r: &Arc<FoliageRegion>| regions.iter().any(|o| Arc::ptr_eq(o, r));
     let came = state.foliage.iter().filter(|r| !is_in(old_regions, r));
     let went = old_regions.iter().filter(|r| !is_in(&state.foliage, r));
     let mut which: BTreeSet<TileIndex> = came.chain(went).flat_map(|r| tiles_of(grid, r)).collect();
-    plant(&mut wild, &which, |tile| Arc::new(wild_trees_on(tile, ground, &state.foliage, state.settings.seed)));
+    if !which.is_empty() {
+        let wild_on = |tile| Arc::new(wild_trees_on(tile, ground, &state.foliage, state.settings.seed));
+        plant(Arc::make_mut(&mut wild), &which, wild_on);
+    }
     if !state.foliage.is_empty() {
         which.extend(&dirty.cleared);
         // Heights tell where there is water, and nothing else.
@@ -340,11 +343,9 @@ fn planted(
     let corridors: Vec<&Hits> = paths.iter().map(|p| &p.corridor.hits).collect();
     let none = Arc::default();
     plant(&mut trees, &which, |tile| {
-        // Most paths are far away.
-        let near: Vec<&Hits> = corridors.iter().copied().filter(|hits| is_near(hits, tile)).collect();
-        standing(wild.get(&tile).unwrap_or(&none), ground, &near, &terrain.waters)
+        standing(tile, wild.get(&tile).unwrap_or(&none), ground, &corridors, &terrain.waters)
     });
-    [wild, trees]
+    (wild, trees)
 }
 
 /// Puts other trees on tiles.
@@ -364,12 +365,6 @@ fn plant(wood: &mut Wood, which: &BTreeSet<TileIndex>, trees_on: impl Fn(TileInd
 fn around(tiles: &BTreeSet<TileIndex>) -> BTreeSet<TileIndex> {
     let beside = |i: u32| i.saturating_sub(1)..=i + 1;
     tiles.iter().flat_map(|&[column, row]| beside(column).flat_map(move |c| beside(row).map(move |r| [c, r]))).collect()
-}
-
-/// Whether a corridor lies on a tile or one beside it.
-fn is_near(hits: &Hits, [column, row]: TileIndex) -> bool {
-    (column.saturating_sub(1)..=column + 1)
-        .any(|c| hits.range([c, row.saturating_sub(1)]..=[c, row + 1]).next().is_some())
 }
 
 /// All intersections; those whose roads are as they were are kept.

@@ -4,9 +4,10 @@
 //! the second kind, with several lots for each cell). So each tree depends on its neighbourhood only: a change of one place changes nothing elsewhere, and the same seed gives the same wood.
 
 use crate::document::FoliageRegion;
-use crate::ground::{FineGrid, Ground, Hits, TileIndex};
+use crate::ground::{FineGrid, Ground, Hits, TILE, TileIndex};
 use crate::terrain::{Waters, inside};
 use fairpath_curve::{Point, Rect, Vec2};
+use std::cmp::Ordering;
 use std::sync::Arc;
 
 /// No tree stands nearer to another, m.
@@ -88,10 +89,20 @@ pub(crate) fn wild_trees_on(tile: TileIndex, ground: &Ground, regions: &[Arc<Fol
 }
 
 /// Of the trees on a tile those that neither paths nor water are in the way of.
-pub(crate) fn standing(wild: &Arc<Vec<Tree>>, ground: &Ground, corridors: &[&Hits], waters: &Waters) -> Arc<Vec<Tree>> {
+pub(crate) fn standing(
+    tile: TileIndex,
+    wild: &Arc<Vec<Tree>>,
+    ground: &Ground,
+    corridors: &[&Hits],
+    waters: &Waters,
+) -> Arc<Vec<Tree>> {
+    if wild.is_empty() {
+        return wild.clone();
+    }
+    let clear = Clear::around(tile, ground.grid(), corridors);
     let stands = |tree: &Tree| {
         let is_wet = || waters.level_at(tree.place).is_some_and(|level| ground.height(tree.place) < level + DRY_M);
-        !is_blocked(ground.grid(), corridors, tree.place) && !is_wet()
+        !clear.is_kept_at(tree.place) && !is_wet()
     };
     if wild.iter().all(stands) {
         return wild.clone();
@@ -126,27 +137,55 @@ fn density_at(regions: &[Arc<FoliageRegion>], place: Point) -> f64 {
     regions.iter().rev().find(|r| inside(&r.outline, place)).map_or(0.0, |r| r.density)
 }
 
-/// Whether a place lies on a path or too near to one.
-fn is_blocked(grid: &FineGrid, corridors: &[&Hits], place: Point) -> bool {
-    let Some([columns, rows]) = grid.samples_around(&[
-        place - Vec2::new(grid.spacing_m().x, grid.spacing_m().y),
-        place + Vec2::new(grid.spacing_m().x, grid.spacing_m().y),
-    ]) else {
-        return true;
-    };
-    for row in rows[0]..=rows[1] {
-        for column in columns[0]..=columns[1] {
-            let (tile, sample) = grid.tile_of([column, row]);
-            for hits in corridors.iter().filter_map(|c| c.get(&tile)) {
-                if let Ok(i) = hits.binary_search_by_key(&sample, |h| h.sample)
-                    && hits[i].keeps_clear()
-                {
-                    return true;
+/// The samples on and around a tile that paths keep clear of trees.
+struct Clear<'a> {
+    grid: &'a FineGrid,
+    /// The column and row of the first sample.
+    first: [usize; 2],
+    /// Row by row, [`Self::SIDE`] samples each.
+    kept: Vec<bool>,
+}
+
+impl<'a> Clear<'a> {
+    /// So many samples around a tile may have something to do with a tree on it.
+    const BESIDE: usize = 2;
+    const SIDE: usize = TILE + 2 * Self::BESIDE;
+
+    fn around(tile: TileIndex, grid: &'a FineGrid, corridors: &[&Hits]) -> Self {
+        let first = tile.map(|i| (i as usize * TILE).saturating_sub(Self::BESIDE));
+        let mut kept = vec![false; Self::SIDE * Self::SIDE];
+        let [columns, [low, high]] = tile.map(|i| [i.saturating_sub(1), i + 1]);
+        let beside = corridors.iter().flat_map(|hits| {
+            (columns[0]..=columns[1]).flat_map(move |column| hits.range([column, low]..=[column, high]))
+        });
+        for (other, hits) in beside {
+            // Of the tiles in the rows before and behind, most samples are too far away.
+            let rows = match other[1].cmp(&tile[1]) {
+                Ordering::Less => TILE - Self::BESIDE..TILE,
+                Ordering::Equal => 0..TILE,
+                Ordering::Greater => 0..Self::BESIDE,
+            };
+            let [from, to] =
+                [rows.start, rows.end].map(|row| hits.partition_point(|h| usize::from(h.sample) < row * TILE));
+            for hit in hits[from..to].iter().filter(|hit| hit.keeps_clear()) {
+                let at = grid.sample_of(*other, hit.sample);
+                let inside = |i: usize| at[i].checked_sub(first[i]).filter(|at| *at < Self::SIDE);
+                if let (Some(column), Some(row)) = (inside(0), inside(1)) {
+                    kept[row * Self::SIDE + column] = true;
                 }
             }
         }
+        Self { grid, first, kept }
     }
-    false
+
+    /// Whether a place on the tile lies on a path or too near to one.
+    fn is_kept_at(&self, place: Point) -> bool {
+        let step = self.grid.spacing_m();
+        let Some([columns, rows]) = self.grid.samples_around(&[place - step, place + step]) else { return true };
+        let inside = |[from, to]: [usize; 2], i: usize| from - self.first[i]..=to - self.first[i];
+        let columns = inside(columns, 0);
+        inside(rows, 1).any(|row| columns.clone().any(|column| self.kept[row * Self::SIDE + column]))
+    }
 }
 
 /// A place that could have a tree.
