@@ -74,8 +74,8 @@ impl Pattern {
     }
 }
 
-/// A pivot that is less than this share of the numbers that it is the difference of is nothing but their rounding.
-const ROUNDING: f64 = 1e-15;
+/// A pivot that is less than this share of the numbers that it is the difference of is nothing but their rounding: of an unknown, and of a multiplier, which has gone through more.
+const ROUNDING: [f64; 2] = [1e-15, 1e-12];
 
 /// Lists of one kind behind each other.
 #[derive(Clone, Debug)]
@@ -176,8 +176,11 @@ impl Factor {
                 self.values[end] = value;
                 filled[column] = end + 1;
             }
-            let sign = if unknown + pattern.multipliers >= n { -1.0 } else { 1.0 };
-            self.diagonal[row] = if sign * pivot > ROUNDING * parts { pivot } else { sign * parts };
+            let is_multiplier = unknown + pattern.multipliers >= n;
+            let sign = if is_multiplier { -1.0 } else { 1.0 };
+            let is_sound = sign * pivot > ROUNDING[usize::from(is_multiplier)] * parts;
+            let any = if parts == 0.0 { 1.0 } else { parts };
+            self.diagonal[row] = if is_sound { pivot } else { sign * any };
         }
     }
 
@@ -305,6 +308,7 @@ mod tests {
             let mut equations: Vec<Vec<(usize, f64)>> = equations;
             if twice {
                 equations.push(equations[0].clone());
+                equations.push(vec![(0, 0.0)]);
             }
             let m = equations.len();
             let terms = || equations.iter().enumerate().flat_map(|(k, terms)| terms.iter().map(move |&(i, f)| (k, i % n, f)));

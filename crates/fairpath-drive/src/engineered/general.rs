@@ -1,6 +1,6 @@
 //! A convex quadratic program comes in, what Clarabel makes of it goes out.
 //!
-//! Clarabel knows nothing of how a program is made up, takes some twenty times as long as [`interior`](super::interior), and refines its systems until rounding ends it.
+//! Clarabel knows nothing of how a program is made up, takes about four times as long as [`interior`](super::interior), and refines its systems until rounding ends it.
 
 use super::program::{End, Outcome, Program};
 use clarabel::algebra::CscMatrix;

@@ -9,25 +9,25 @@
 //!
 //! What makes it quick is the system that is solved in each step. Rows that are at most a value are eliminated first, each by itself: what is left is P + Aᵀ diag(z / s) A, in which
 //! an unknown is tied to those only with which it has a row in common. For roads that is a band of two beside the diagonal, once each cell's fill is eliminated, and what crossings
-//! add. So a step takes time proportional to the number of unknowns.
+//! add. But for these a step takes time proportional to the number of unknowns.
 
 use super::program::{End, Outcome, Program};
 use crate::sparse::{Factor, Pattern};
 
-/// How near the least cost and the limits a solution is, as a share of their size.
+/// How near the least cost and the values of rows a solution is, as a share of their size.
 const NEAR: f64 = 1e-10;
 
 /// Most steps; there are about twenty.
 const MOST_STEPS: u32 = 100;
 
-/// What is as near as this is taken where rounding has kept so many steps one after the other from coming nearer.
+/// What keeps rows so and is as near as this to the least cost is taken where so many steps did not come nearer, which is rounding's doing.
 const ROUNDED: f64 = 1e-7;
 const FARTHER: u32 = 2;
 
-/// Rows contradict each other when prices prove that whatever keeps them has unknowns whose sizes come to more than one over this: ten thousand kilometres off the ground.
-const PROVED: f64 = 1e-7;
+/// Rows contradict each other when prices prove that whatever keeps them has an unknown greater than one over this: a height a thousand kilometres off the ground.
+const PROVED: f64 = 1e-6;
 
-/// What the square of an excess of a row costs, as a share of the greatest cost, where the first point is looked for. Ten times more or less makes a step or two more.
+/// What the square of the distance of a row from its value costs, in greatest costs, where the first point is looked for. Ten times more or less makes a step or two more.
 const FIRST_WEIGHT: f64 = 100.0;
 
 /// How much of the way to the nearest bound a step goes.
@@ -37,7 +37,7 @@ const NEARLY: f64 = 0.99;
 const SHORT_STEPS: u32 = 5;
 const SHORT: f64 = 1e-3;
 
-/// Directions are corrected until they are off prices and equations by this little, which adds up to less than [`NEAR`], or this often.
+/// Directions are corrected until they are off prices and equations by this little, as long as that helps, and no more often.
 const CORRECTED: f64 = 1e-12;
 const CORRECTIONS: usize = 10;
 
@@ -49,11 +49,9 @@ pub(super) fn solve(program: &Program) -> Outcome {
     let (mut steps, mut short) = (0, 0);
     let end = loop {
         let off = point.off(&system);
-        let near = off.distance(&system, &point);
-        if near < nearest {
-            (best, nearest, farther) = (point.clone(), near, 0);
-        } else {
-            farther += 1;
+        match off.distance(&system, &point) {
+            Some(near) if near < nearest => (best, nearest, farther) = (point.clone(), near, 0),
+            _ => farther += 1,
         }
         if nearest <= NEAR || (nearest <= ROUNDED && farther == FARTHER) {
             break End::Solved;
@@ -104,7 +102,7 @@ impl Of {
 
     /// The greatest size of a number.
     fn size(&self) -> f64 {
-        size(&self.x).max(size(&self.y)).max(size(&self.z))
+        size(&[size(&self.x), size(&self.y), size(&self.z)])
     }
 }
 
@@ -217,20 +215,31 @@ impl<'a> System<'a> {
 
     /// Makes a solution nearer to what [`System::solve`] says.
     fn correct(&self, solution: &mut Of, right: &Of) {
-        let mut before = f64::INFINITY;
+        let mut left = self.left(solution, right);
         for _ in 0..CORRECTIONS {
-            // The last of the three holds as it is, so what is left of the others is corrected without it.
-            let mut left = self.priced(solution);
-            left.iter_mut().zip(&right.x).for_each(|(sum, right)| *sum = right - *sum);
-            left.extend(self.program.equal.times(&solution.x).iter().zip(&right.y).map(|(sum, right)| right - sum));
-            let now = size(&left);
-            if now <= CORRECTED || !(now < 0.5 * before) {
+            let before = size(&left);
+            if before <= CORRECTED {
                 return;
             }
-            before = now;
             let (x, y, z) = self.solve_first(&left);
-            *solution = solution.plus(1.0, &Of { x, y, z });
+            let next = solution.plus(1.0, &Of { x, y, z });
+            left = self.left(&next, right);
+            let now = size(&left);
+            if now < before {
+                *solution = next;
+            }
+            if !(now < 0.5 * before) {
+                return;
+            }
         }
+    }
+
+    /// What is left of right.x and right.y. Of right.z nothing is, since z is told by it.
+    fn left(&self, solution: &Of, right: &Of) -> Vec<f64> {
+        let mut left = self.priced(solution);
+        left.iter_mut().zip(&right.x).for_each(|(sum, right)| *sum = right - *sum);
+        left.extend(self.program.equal.times(&solution.x).iter().zip(&right.y).map(|(sum, right)| right - sum));
+        left
     }
 
     /// The solution where right.z is nothing.
@@ -323,7 +332,7 @@ impl Point {
 
     /// Whether its prices prove that rows contradict each other.
     fn is_contradiction(&self, system: &System<'_>) -> bool {
-        // If x keeps the rows, (Eᵀy + Aᵀz)ᵀ x is no more than what the rows are worth, which is less than nothing.
+        // If x keeps the rows, (Eᵀy + Aᵀz)ᵀx is no more than what the rows are worth, which is less than nothing; and its size is no more than the sum of those sizes times the greatest of x.
         let proof = -system.worth(&self.at);
         if !(self.kappa > self.tau && proof > 0.0) {
             return false;
@@ -331,7 +340,7 @@ impl Point {
         let mut sum = vec![0.0; system.linear.len()];
         system.program.equal.add_transposed(&self.at.y, &mut sum);
         system.program.at_most.add_transposed(&self.at.z, &mut sum);
-        size(&sum) <= PROVED * proof
+        sum.iter().map(|x| x.abs()).sum::<f64>() <= PROVED * proof
     }
 
     /// How far complementarity is from zero, a mean.
@@ -352,7 +361,7 @@ impl Point {
         let products = (0..self.s.len()).map(|i| aim - self.s[i] * self.at.z[i] - ahead.s[i] * ahead.at.z[i]).collect();
         let step = newton.step(1.0 - centre, products, aim - self.tau * self.kappa - ahead.tau * ahead.kappa, true);
         let share = (NEARLY * self.room(&step)).min(1.0);
-        if !(share.is_finite() && step.at.size().is_finite() && step.tau.is_finite()) {
+        if !size(&[share, step.at.size(), size(&step.s), step.tau, step.kappa]).is_finite() {
             return None;
         }
         self.at = self.at.plus(share, &step.at);
@@ -401,11 +410,17 @@ impl<'a> Newton<'a> {
         // With ξ = x / τ the last equation is what tells τ: (2 P ξ + q)ᵀΔx − ξᵀP ξ Δτ + eᵀΔy + bᵀΔz + Δκ = share · off.
         let slope = |of: &Of| 2.0 * dot(&off.quadratic, &of.x) / point.tau + system.valued(of);
         let xi = dot(&point.at.x, &off.quadratic) / (point.tau * point.tau);
-        let missing = share * off.cost - of_tau / point.tau - slope(&rest);
-        let tau = missing / (slope(for_tau) - xi - point.kappa / point.tau);
+        let missing = |of: &Of, tau: f64| {
+            share * off.cost - of_tau / point.tau - slope(of) + (xi + point.kappa / point.tau) * tau
+        };
+        let pivot = slope(for_tau) - xi - point.kappa / point.tau;
+        let mut tau = missing(&rest, 0.0) / pivot;
         let mut at = rest.plus(tau, for_tau);
         if corrected {
             system.correct(&mut at, &right.plus(tau, &self.tau));
+            let more = missing(&at, tau) / pivot;
+            at = at.plus(more, for_tau);
+            tau += more;
         }
         let kappa = (of_tau - point.kappa * tau) / point.tau;
         let s = (0..point.s.len()).map(|i| (products[i] - point.s[i] * at.z[i]) / point.at.z[i]).collect();
@@ -414,8 +429,8 @@ impl<'a> Newton<'a> {
 }
 
 impl Off {
-    /// How near a point is to the least cost: by what share rows, prices and cost are off.
-    fn distance(&self, system: &System<'_>, point: &Point) -> f64 {
+    /// How near a point is to the least cost, by what share prices and cost are off; none where it does not keep the rows.
+    fn distance(&self, system: &System<'_>, point: &Point) -> Option<f64> {
         let Program { equal, at_most, .. } = system.program;
         let unit = 1.0 / point.tau;
         let limits = size(&equal.values).max(size(&at_most.values));
@@ -428,6 +443,6 @@ impl Off {
             share(unit * size(&self.of.y).max(size(&self.of.z)), limits.max(unknowns).max(unit * size(&point.s)));
         let prices = share(unit * size(&self.of.x), size(&system.linear).max(unknowns).max(unit * size(&point.at.z)));
         let gap = share((cost - bound).abs(), cost.abs().min(bound.abs()));
-        size(&[rows, prices, gap])
+        (rows <= NEAR).then(|| size(&[prices, gap]))
     }
 }

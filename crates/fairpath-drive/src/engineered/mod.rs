@@ -28,9 +28,9 @@
 //! (bridges, tunnels) the road is still one definite curve.
 //!
 //! The program is solved by the primal-dual interior-point method of Goulart and Chen (*Clarabel: An interior-point solver for conic programs with
-//! quadratic objectives*, 2024), separately for each part of the network that hangs together. A step of it takes time proportional to the number of knots, since what is tied to a
-//! coefficient are its neighbours and, at a crossing, those of another road; there are some twenty steps. Where rounding keeps it from an end, the authors' own program is asked, which
-//! takes some ten times as long.
+//! quadratic objectives*, 2024), separately for each part of the network that hangs together. There are some twenty steps, and a step takes time proportional to the number of knots,
+//! since what is tied to a coefficient are its neighbours; crossings tie more together. Where rounding keeps it from an end, the authors' own program is asked, which takes about
+//! four times as long.
 //! Only additions, multiplications, divisions and square roots are on its way to the result, in an order that depends on the input alone.
 //!
 //! # How well limits are kept

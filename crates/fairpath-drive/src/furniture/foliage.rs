@@ -229,3 +229,60 @@ fn hash(x: u64) -> u64 {
     let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
     z ^ (z >> 31)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::ground::Hit;
+    use crate::terrain::{Heightfield, Samples};
+    use proptest::prelude::*;
+    use std::collections::BTreeSet;
+
+    const SIZE: usize = 100;
+
+    /// Somewhere from 0 to 1, often at an end.
+    fn share() -> impl Strategy<Value = f64> {
+        prop_oneof![Just(0.0), Just(1e-9), 0.0..1.0_f64, Just(1.0 - 1e-9)]
+    }
+
+    proptest! {
+        #[test]
+        fn what_is_kept_clear_around_a_tile_is_kept_at_each_sample_of_it(
+            samples in prop::collection::btree_set((0..SIZE, 0..SIZE), 0..200),
+            at_rims in prop::collection::btree_set((29..36_usize, 29..36_usize), 0..6),
+            places in prop::collection::vec(((0..4_u32, 0..4_u32), (share(), share())), 1..40),
+        ) {
+            let spacing = Vec2::new(1.3, 1.5);
+            let corner = Point::new(430_123.4, 4_700_321.7);
+            let natural = Heightfield::new([SIZE, SIZE], corner, spacing, Samples::F32(vec![0.0; SIZE * SIZE])).unwrap();
+            let grid = FineGrid::of(&natural);
+            let samples: BTreeSet<(usize, usize)> = samples.into_iter().chain(at_rims).collect();
+            // Of two paths, and with samples that may have trees.
+            let mut corridors = [Hits::new(), Hits::new()];
+            let mut kept = BTreeSet::new();
+            for (i, &(column, row)) in samples.iter().enumerate() {
+                let beyond_m = [-1.0, CLEAR_M as f32 - 0.5, CLEAR_M as f32 + 0.5][i % 3];
+                if i % 3 < 2 {
+                    kept.insert((column, row));
+                }
+                let (tile, sample) = grid.tile_of([column, row]);
+                let hit = Hit { sample, natural_m: 0.0, beyond_m, low_m: 0.0, high_m: 0.0 };
+                Arc::make_mut(corridors[i % 2].entry(tile).or_default()).push(hit);
+            }
+            for hits in corridors.iter_mut().flat_map(|hits| hits.values_mut()) {
+                Arc::make_mut(hits).sort_by_key(|hit| hit.sample);
+            }
+            let corridors: Vec<&Hits> = corridors.iter().collect();
+            for ((column, row), (u, v)) in places {
+                let [low, high] = tile_box(&grid, [column, row]);
+                let place = low + Vec2::new(u * (high - low).x, v * (high - low).y);
+                if !natural.contains(place) {
+                    continue;
+                }
+                let [columns, rows] = grid.samples_around(&[place - spacing, place + spacing]).unwrap();
+                let expected = kept.iter().any(|(c, r)| (columns[0]..=columns[1]).contains(c) && (rows[0]..=rows[1]).contains(r));
+                prop_assert_eq!(Clear::around([column, row], &grid, &corridors).is_kept_at(place), expected);
+            }
+        }
+    }
+}

@@ -31,7 +31,7 @@ fn widened(network: &EngineeredNetwork, error: &EngineeredError) -> Option<Engin
 }
 
 /// Of the heights of the network in `the_same_network_has_the_same_bits_and_apart_roads_do_not_touch`.
-const DIGEST: u64 = 0x3457_a44c_8147_8a8c;
+const DIGEST: u64 = 0x132a_f26c_3b62_2774;
 
 proptest! {
     #![proptest_config(ProptestConfig { cases: 40, ..ProptestConfig::default() })]
@@ -146,7 +146,7 @@ proptest! {
             prop_assert!((a - b).abs() < 1e-6 * a.max(1.0), "{a} {b}");
             for (a, b) in ahead.profiles.iter().zip(&back.profiles) {
                 for (a, b) in a.knots().iter().zip(b.reversed().knots()) {
-                    // Where the same earth is moved at other heights too, rounding has its say about their tenths of a millimetre.
+                    // Where nearly the same earth is moved at other heights too, rounding has its say: a tenth of a millimetre was seen in thousands of cases.
                     prop_assert!((a.height_m - b.height_m).abs() < 1e-3, "{a:?} {b:?}");
                     prop_assert!((a.grade - b.grade).abs() < 1e-4, "{a:?} {b:?}");
                 }
@@ -198,7 +198,7 @@ fn the_same_network_has_the_same_bits_and_apart_roads_do_not_touch() {
     both.over = vec![ClearanceAt { upper: point(0, 350.0), lower: point(2, 350.0), clearance_m: 5.0 }];
     let heights = both.solve().unwrap();
     assert_eq!(heights, both.solve().unwrap());
-    // FNV-1a of all heights and grades. Built for x86-64 and for wasm32 the digest is the same; a change of it is a change of results.
+    // FNV-1a of all heights and grades. A change of it is a change of results.
     let mut digest: u64 = 0xcbf2_9ce4_8422_2325;
     let numbers = heights.profiles.iter().flat_map(|p| p.knots()).flat_map(|knot| [knot.height_m, knot.grade]);
     for byte in numbers.flat_map(|x| x.to_bits().to_le_bytes()) {
