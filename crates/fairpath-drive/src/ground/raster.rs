@@ -230,6 +230,8 @@ type Between<'a> = [&'a CrossSection; 2];
 struct Strip<'a> {
     between: Between<'a>,
     plan: StripPlan,
+    /// The tiles that it reaches as it is.
+    reached: Option<[TileIndex; 2]>,
     /// The plan by which its samples are looked for, and the tiles in which these lie.
     wide: StripPlan,
     tiles: [TileIndex; 2],
@@ -240,13 +242,13 @@ impl<'a> Strip<'a> {
     fn of(between: Between<'a>, grid: &FineGrid) -> Option<Self> {
         let plan = StripPlan::of(between, grid)?;
         let wide = plan.wider();
-        Some(Self { between, plan, wide, tiles: wide.tiles(grid)? })
+        Some(Self { between, plan, reached: plan.tiles(grid), wide, tiles: wide.tiles(grid)? })
     }
 
     /// Whether it may ask anything of a tile as it is.
-    fn reaches(&self, tile: TileIndex, grid: &FineGrid) -> bool {
+    fn reaches(&self, tile: TileIndex) -> bool {
         let is_in = |[low, high]: [TileIndex; 2]| (0..2).all(|i| (low[i]..=high[i]).contains(&tile[i]));
-        self.plan.tiles(grid).is_some_and(is_in)
+        self.reached.is_some_and(is_in)
     }
 }
 
@@ -268,7 +270,7 @@ impl Spots {
             let place = known[next..].iter().position(|known| known.holds(&strip.plan)).map(|i| next + i);
             if let Some(place) = place {
                 (kept[place], next) = (Some(own.len()), place + 1);
-            } else if !strip.reaches(tile, ground.grid()) {
+            } else if !strip.reaches(tile) {
                 continue;
             }
             own.push((strip, place));
