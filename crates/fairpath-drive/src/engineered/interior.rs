@@ -24,7 +24,7 @@ const MOST_STEPS: u32 = 100;
 const ROUNDED: f64 = 1e-7;
 const FARTHER: u32 = 2;
 
-/// Rows contradict each other when prices prove that whatever keeps them has an unknown greater than one over this: a height a thousand kilometres off the ground.
+/// Rows contradict each other when prices prove that whatever keeps them has an unknown greater than one over this: a height a thousand kilometres off the ground, or a limit that is exceeded a million times.
 const PROVED: f64 = 1e-6;
 
 /// What the square of the distance of a row from its value costs, in greatest costs, where the first point is looked for. Ten times more or less makes a step or two more.
