@@ -32,6 +32,7 @@ mod furniture;
 mod ground;
 mod groups;
 mod heights;
+mod lists;
 mod network;
 mod playback;
 mod profile;

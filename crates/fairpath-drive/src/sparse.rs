@@ -4,6 +4,7 @@
 //! unknowns that they tie together, so that no pivot is by accident near zero (Vanderbei, *Symmetric quasidefinite matrices*, 1995). But for that the order of elimination is
 //! that of least degree; the factor L of L D Lᵀ is computed row by row (Davis, *Direct methods for sparse linear systems*, 2006, section 4.8, gives the up-looking way).
 
+use crate::lists::Lists;
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
@@ -29,18 +30,22 @@ impl Pattern {
         multipliers: usize,
         pairs: impl Iterator<Item = (usize, usize)>,
     ) -> Self {
-        let mut behind: Vec<Vec<usize>> = vec![Vec::new(); count];
-        pairs.filter(|(i, j)| i != j).for_each(|(i, j)| behind[i.min(j)].push(i.max(j)));
-        for columns in &mut behind {
-            columns.sort_unstable();
-            columns.dedup();
+        let pairs: Vec<_> = pairs.filter(|(i, j)| i != j).map(|(i, j)| (i.min(j), i.max(j))).collect();
+        let mut behind = Lists::default();
+        let mut sorted = Vec::new();
+        for columns in Lists::gathered(count, &pairs).iter() {
+            sorted.clear();
+            sorted.extend_from_slice(columns);
+            sorted.sort_unstable();
+            sorted.dedup();
+            behind.push(sorted.iter().copied());
         }
-        Self { count, multipliers, behind: behind.into_iter().collect() }
+        Self { count, multipliers, behind }
     }
 
     /// How many values a matrix of the pattern has: its diagonal, then what is behind it, row by row.
     pub(crate) fn entries(&self) -> usize {
-        self.count + self.behind.items.len()
+        self.count + self.behind.items().len()
     }
 
     /// Where the value of a pair stands, which must be in the pattern.
@@ -64,7 +69,7 @@ impl Pattern {
             let range = self.behind.range(row);
             let values = &matrix[self.count + range.start..self.count + range.end];
             let (here, mut sum) = (x[row], 0.0);
-            for (&column, value) in self.behind.items[range].iter().zip(values) {
+            for (&column, value) in self.behind.items()[range].iter().zip(values) {
                 sum += value * x[column];
                 product[column] += value * here;
             }
@@ -76,34 +81,6 @@ impl Pattern {
 
 /// A pivot that is less than this share of the numbers that it is the difference of is nothing but their rounding: of an unknown, and of a multiplier, which has gone through more.
 const ROUNDING: [f64; 2] = [1e-15, 1e-12];
-
-/// Lists of one kind behind each other.
-#[derive(Clone, Debug)]
-struct Lists<T> {
-    ends: Vec<usize>,
-    items: Vec<T>,
-}
-
-impl<T> FromIterator<Vec<T>> for Lists<T> {
-    fn from_iter<I: IntoIterator<Item = Vec<T>>>(lists: I) -> Self {
-        let (mut ends, mut items) = (Vec::new(), Vec::new());
-        for list in lists {
-            items.extend(list);
-            ends.push(items.len());
-        }
-        Self { ends, items }
-    }
-}
-
-impl<T> Lists<T> {
-    fn range(&self, list: usize) -> std::ops::Range<usize> {
-        list.checked_sub(1).map_or(0, |before| self.ends[before])..self.ends[list]
-    }
-
-    fn of(&self, list: usize) -> &[T] {
-        &self.items[self.range(list)]
-    }
-}
 
 /// A factorisation.
 #[derive(Clone, Debug)]
@@ -134,16 +111,12 @@ impl Factor {
             rows
         };
         let columns: Lists<usize> = below.into_iter().map(rows_below).collect();
-        // Columns ascend, since they are gone through in their order.
-        let mut rows: Vec<Vec<usize>> = vec![Vec::new(); n];
-        (0..n).for_each(|column| columns.of(column).iter().for_each(|&row| rows[row].push(column)));
-        let mut given: Vec<Vec<(usize, usize)>> = vec![Vec::new(); n];
-        for (k, (i, j)) in pattern.pairs().enumerate() {
-            let (row, column) = (place[i].max(place[j]), place[i].min(place[j]));
-            given[row].push((column, n + k));
-        }
-        let values = vec![0.0; columns.items.len()];
-        let (rows, given) = (rows.into_iter().collect(), given.into_iter().collect());
+        // Columns ascend in each row, since they are gone through in their order.
+        let entries = columns.iter().enumerate().flat_map(|(column, rows)| rows.iter().map(move |&row| (row, column)));
+        let rows = Lists::gathered(n, &entries.collect::<Vec<_>>());
+        let entry = |(k, (i, j)): (usize, (usize, usize))| (place[i].max(place[j]), (place[i].min(place[j]), n + k));
+        let given = Lists::gathered(n, &pattern.pairs().enumerate().map(entry).collect::<Vec<_>>());
+        let values = vec![0.0; columns.items().len()];
         Self { order, columns, values, rows, given, diagonal: vec![0.0; n] }
     }
 
@@ -168,7 +141,7 @@ impl Factor {
                 // Rows above this one that have this column as well.
                 let begin = self.columns.range(column).start;
                 let end = filled[column];
-                for (&other, l) in self.columns.items[begin..end].iter().zip(&self.values[begin..end]) {
+                for (&other, l) in self.columns.items()[begin..end].iter().zip(&self.values[begin..end]) {
                     full[other] -= l * above;
                 }
                 pivot -= value * above;
@@ -190,7 +163,7 @@ impl Factor {
         let mut x: Vec<f64> = self.order.iter().map(|&unknown| right[unknown]).collect();
         let column = |column: usize| {
             let range = self.columns.range(column);
-            self.columns.items[range.clone()].iter().zip(&self.values[range])
+            self.columns.items()[range.clone()].iter().zip(&self.values[range])
         };
         for j in 0..n {
             let here = x[j];

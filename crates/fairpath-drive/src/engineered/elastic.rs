@@ -6,9 +6,9 @@
 
 use super::demand::{Asked, Demand, Sense};
 use super::error::EngineeredError;
-use super::program::{End, Outcome, Program};
+use super::program::{Cost, End, Outcome, Program};
 use super::shortfall::{Shortfall, ShortfallKind};
-use super::solve::{PULL, Part, greatest_bend, negated, shifted};
+use super::solve::{PULL, Part, greatest_bend, shifted};
 use crate::profile::Profile;
 
 /// The part of squares in what is made least.
@@ -58,14 +58,13 @@ fn design_gives(part: &Part<'_>) -> (Program, Rows) {
     (0..part.base.len()).for_each(|i| program.square(&[(i, 1.0)], 0.0, PULL));
     for (_, road, layout, first) in part.each() {
         let h = layout.step_m;
+        // In shares of the upper limit, so that all costs are of one size.
         let mut soft = |terms: &[(usize, f64)], [least, most]: [f64; 2]| {
-            let share = program.unknowns(1);
-            program.cost(share, h);
-            program.square(&[(share, 1.0)], 0.0, SQUARES * h);
-            program.at_most([(share, -1.0)], 0.0);
-            let ground = part.on_ground(terms);
-            program.at_most(terms.iter().copied().chain([(share, -most)]), most - ground);
-            program.at_most(negated(terms).chain([(share, least)]), -least + ground);
+            let ground = part.on_ground(terms) / most;
+            let sum = program.sum(terms.iter().map(|&(i, factor)| (i, factor / most)));
+            let cost = |share: f64| Cost { linear: h * share, square: SQUARES * h * share * share };
+            program.costs(sum, 1.0 - ground, cost(1.0), Cost::default());
+            program.costs(sum, least / most - ground, Cost::default(), cost(most / least.abs()));
         };
         let most = h * road.limits.max_grade;
         for knot in 0..layout.knots() {
@@ -96,9 +95,10 @@ fn demands_give(part: &Part<'_>) -> (Program, Rows, Vec<[usize; 2]>) {
         let first = program.unknowns(2);
         let slack = [first, first + 1];
         for unknown in slack {
+            let sum = program.sum([(unknown, 1.0)]);
+            program.at_least(sum, 0.0);
             program.cost(unknown, 1.0);
             program.square(&[(unknown, 1.0)], 0.0, SQUARES);
-            program.at_most([(unknown, -1.0)], 0.0);
         }
         rows.push(asked_rows(part, &mut program, asked, Some(slack)));
         slacks.push(slack);
@@ -114,7 +114,10 @@ fn asked_rows(part: &Part<'_>, program: &mut Program, asked: &Asked, slack: Opti
         let terms: Vec<(usize, f64)> = terms.iter().copied().chain(gives).collect();
         match asked.sense {
             Sense::Equal => program.equal(terms, value),
-            Sense::AtLeast => program.at_most(negated(&terms), -value),
+            Sense::AtLeast => {
+                let sum = program.sum(terms);
+                program.at_least(sum, value)
+            }
         }
     };
     asked.rows.iter().map(row).collect()
@@ -124,7 +127,7 @@ fn asked_rows(part: &Part<'_>, program: &mut Program, asked: &Asked, slack: Opti
 fn pressure(part: &Part<'_>, outcome: &Outcome, rows: &Rows) -> Vec<f64> {
     let mut presses: Vec<f64> = (part.asked.iter().zip(rows))
         .map(|(asked, rows)| {
-            let prices = if asked.sense == Sense::Equal { &outcome.equal } else { &outcome.at_most };
+            let prices = if asked.sense == Sense::Equal { &outcome.of_equations } else { &outcome.of_rows };
             let sum: f64 = rows.iter().map(|&row| prices[row].abs()).sum();
             // A grade turns a road around a point; over one interval that moves it by the interval's length.
             if asked.of_grade { sum / part.layouts[asked.demand.place().road].step_m } else { sum }

@@ -1,6 +1,6 @@
 //! A convex quadratic program comes in, what Clarabel makes of it goes out.
 //!
-//! Clarabel knows nothing of how a program is made up, takes about four times as long as [`interior`](super::interior), and refines its systems until rounding ends it.
+//! Clarabel knows nothing of how a program is made up, and refines its systems until rounding ends it: it takes many times as long as [`interior`](super::interior).
 
 use super::program::{End, Outcome, Program};
 use clarabel::algebra::CscMatrix;
@@ -20,18 +20,28 @@ type Triplets = (Vec<usize>, (Vec<usize>, Vec<f64>));
 
 /// The unknowns that cost least.
 pub(super) fn solve(program: &Program) -> Outcome {
-    let Program { linear, quadratic, equal, at_most } = program;
-    let count = linear.len();
-    let (rows, (columns, values)): Triplets = quadratic.iter().map(|&(i, j, value)| (i, (j, value))).unzip();
-    let quadratic = CscMatrix::new_from_triplets(count, count, rows, columns, values);
-    let all =
-        || (0..equal.count()).map(|row| equal.terms(row)).chain((0..at_most.count()).map(|row| at_most.terms(row)));
-    let entries = all().enumerate().flat_map(|(row, terms)| terms.iter().map(move |term| (row, *term)));
-    let (rows, (columns, values)): Triplets = entries.unzip();
-    let limits: Vec<f64> = equal.values.iter().chain(&at_most.values).copied().collect();
-    let matrix = CscMatrix::new_from_triplets(limits.len(), count, rows, columns, values);
-    let cones = [ZeroConeT(equal.count()), NonnegativeConeT(at_most.count())];
-    match DefaultSolver::new(&quadratic, linear, &matrix, &limits, &cones, settings()) {
+    let Program { linear, quadratic, equations, sums, rows } = program;
+    let (unknowns, equal) = (linear.len(), equations.values.len());
+    // Unknowns of Clarabel's are also how far each row is above and below its value, which are at least nothing.
+    let sides = || rows.iter().enumerate().flat_map(|(row, sides)| sides.sides().map(move |side| (row, side)));
+    let count = unknowns + sides().count();
+    let mut costs = linear.clone();
+    costs.extend(sides().map(|(_, (_, cost))| cost.linear));
+    let squares = sides().zip(unknowns..).map(|((_, (_, cost)), unknown)| (unknown, unknown, cost.square));
+    let (i, (j, values)): Triplets =
+        quadratic.iter().copied().chain(squares).map(|(i, j, value)| (i, (j, value))).unzip();
+    let quadratic = CscMatrix::new_from_triplets(count, count, i, j, values);
+    let all = equations.sums.iter().chain(rows.iter().map(|row| sums.of(row.sum)));
+    let terms = all.enumerate().flat_map(|(row, terms)| terms.iter().map(move |term| (row, *term)));
+    let off = sides().zip(unknowns..).map(|((row, (sign, _)), unknown)| (equal + row, (unknown, -sign)));
+    let not_negative = (unknowns..count).map(|unknown| (equal + rows.len() + unknown - unknowns, (unknown, -1.0)));
+    let (i, (j, values)): Triplets = terms.chain(off).chain(not_negative).unzip();
+    let mut limits = equations.values.clone();
+    limits.extend(rows.iter().map(|row| row.value));
+    limits.resize(equal + rows.len() + count - unknowns, 0.0);
+    let matrix = CscMatrix::new_from_triplets(limits.len(), count, i, j, values);
+    let cones = [ZeroConeT(equal + rows.len()), NonnegativeConeT(count - unknowns)];
+    match DefaultSolver::new(&quadratic, &costs, &matrix, &limits, &cones, settings()) {
         Ok(mut solver) => {
             solver.solve();
             let solution = solver.solution;
@@ -40,20 +50,20 @@ pub(super) fn solve(program: &Program) -> Outcome {
                 SolverStatus::PrimalInfeasible | SolverStatus::AlmostPrimalInfeasible => End::Infeasible,
                 _ => End::Unsettled,
             };
-            let (of_equal, of_at_most) = solution.z.split_at(equal.count());
+            let (of_equations, others) = solution.z.split_at(equal);
             Outcome {
                 end,
-                equal: of_equal.to_vec(),
-                at_most: of_at_most.to_vec(),
+                x: solution.x[..unknowns].to_vec(),
+                of_equations: of_equations.to_vec(),
+                of_rows: others[..rows.len()].to_vec(),
                 status: solution.status.to_string(),
                 iterations: solution.iterations,
-                x: solution.x,
             }
         }
         Err(error) => Outcome {
-            x: vec![0.0; count],
-            equal: vec![0.0; equal.count()],
-            at_most: vec![0.0; at_most.count()],
+            x: vec![0.0; unknowns],
+            of_equations: vec![0.0; equal],
+            of_rows: vec![0.0; rows.len()],
             end: End::Unsettled,
             status: error.to_string(),
             iterations: 0,

@@ -23,14 +23,14 @@
 //! A cross-section whose middle is d above or below the ground has the area W |d| + S d², with a platform of width W and sides that run S metres for each
 //! metre of rise. Each interval is cut into two cells; d is the mean of z − ground over a cell, and the earth of a cell is its length times the area there,
 //! times what a cubic metre of cut or of fill counts. That is less than the true volume only in a cell in which the road crosses the ground or the
-//! ground is rough; [`Earthwork`] measures the true one. With fill u ≥ 0 and cut u − d ≥ 0 as unknowns this is a convex quadratic program:
+//! ground is rough; [`Earthwork`] measures the true one. What it costs to be above and below the ground makes this a convex quadratic program:
 //! any minimum is the least of all. [`STIFFNESS_M4`] times ∫ z″² ds is added, and next to nothing for being off the ground, so that where no earthwork counts
 //! (bridges, tunnels) the road is still one definite curve.
 //!
 //! The program is solved by the primal-dual interior-point method of Goulart and Chen (*Clarabel: An interior-point solver for conic programs with
 //! quadratic objectives*, 2024), separately for each part of the network that hangs together. There are some twenty steps, and a step takes time proportional to the number of knots,
-//! since what is tied to a coefficient are its neighbours; crossings tie more together. Where rounding keeps it from an end, the authors' own program is asked, which takes about
-//! four times as long.
+//! since what is tied to a coefficient are its neighbours; crossings tie more together. Where rounding keeps it from an end, the authors' own program is asked, which takes many
+//! times as long.
 //! Only additions, multiplications, divisions and square roots are on its way to the result, in an order that depends on the input alone.
 //!
 //! # How well limits are kept

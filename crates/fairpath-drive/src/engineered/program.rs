@@ -1,62 +1,56 @@
 //! A convex quadratic program: costs and rows are put in one by one, the least cost comes out.
 
 use super::{general, interior};
+use crate::lists::Lists;
 
-/// The program to make ½ xᵀP x + qᵀx least where rows of x are equal to, or at most, given values.
+/// The program to make ½ xᵀP x + qᵀx, and what rows cost, least where equations hold.
 #[derive(Debug, Default)]
 pub(super) struct Program {
     /// q.
     pub(super) linear: Vec<f64>,
     /// Entries of P on and above its diagonal, as row, column and value; what stands at one place is added up.
     pub(super) quadratic: Vec<(usize, usize, f64)>,
-    pub(super) equal: Rows,
-    pub(super) at_most: Rows,
+    pub(super) equations: Equations,
+    /// Sums of unknowns that rows are about.
+    pub(super) sums: Lists<(usize, f64)>,
+    pub(super) rows: Vec<Row>,
 }
 
-/// Rows with few terms each, and their values.
+/// Sums of unknowns that are equal to values.
 #[derive(Debug, Default)]
-pub(super) struct Rows {
-    ends: Vec<usize>,
-    terms: Vec<(usize, f64)>,
+pub(super) struct Equations {
+    pub(super) sums: Lists<(usize, f64)>,
     pub(super) values: Vec<f64>,
 }
 
-impl Rows {
-    fn push(&mut self, terms: impl IntoIterator<Item = (usize, f64)>, value: f64) -> usize {
-        self.terms.extend(terms);
-        self.ends.push(self.terms.len());
-        self.values.push(value);
-        self.values.len() - 1
+/// What it costs that a sum is above or below a value; where nothing is told, it must not be.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Row {
+    pub(super) sum: usize,
+    pub(super) value: f64,
+    above: Option<Cost>,
+    below: Option<Cost>,
+}
+
+/// A distance d ≥ 0 costs linear · d + ½ square · d².
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Cost {
+    pub(super) linear: f64,
+    pub(super) square: f64,
+}
+
+impl Row {
+    /// On which sides of its value a sum may be, 1 for above and −1 for below, and what that costs.
+    pub(super) fn sides(&self) -> impl Iterator<Item = (f64, Cost)> + use<> {
+        self.above.map(|cost| (1.0, cost)).into_iter().chain(self.below.map(|cost| (-1.0, cost)))
     }
 
-    /// How many there are.
-    pub(super) fn count(&self) -> usize {
-        self.values.len()
-    }
-
-    /// The unknowns of a row with their factors; an unknown may come more than once.
-    pub(super) fn terms(&self, row: usize) -> &[(usize, f64)] {
-        let begin = row.checked_sub(1).map_or(0, |before| self.ends[before]);
-        &self.terms[begin..self.ends[row]]
-    }
-
-    /// Each row's sum for these unknowns.
-    pub(super) fn times(&self, x: &[f64]) -> Vec<f64> {
-        let mut begin = 0;
-        let sum = |&end: &usize| {
-            let terms = &self.terms[begin..end];
-            begin = end;
-            terms.iter().fold(0.0, |sum, &(unknown, factor)| sum + factor * x[unknown])
-        };
-        self.ends.iter().map(sum).collect()
-    }
-
-    /// Adds each row, times its number, to unknowns.
-    pub(super) fn add_transposed(&self, numbers: &[f64], x: &mut [f64]) {
-        let mut begin = 0;
-        for (&end, number) in self.ends.iter().zip(numbers) {
-            self.terms[begin..end].iter().for_each(|&(unknown, factor)| x[unknown] += factor * number);
-            begin = end;
+    /// The side if there is but one.
+    pub(super) fn only_side(&self) -> Option<f64> {
+        match (self.above, self.below) {
+            (Some(_), None) => Some(1.0),
+            (None, Some(_)) => Some(-1.0),
+            _ => None,
         }
     }
 }
@@ -67,9 +61,9 @@ pub(super) struct Outcome {
     /// The unknowns.
     pub(super) x: Vec<f64>,
     /// For each equation by how much the least cost falls when its value rises by one.
-    pub(super) equal: Vec<f64>,
-    /// The same for each row that is at most its value.
-    pub(super) at_most: Vec<f64>,
+    pub(super) of_equations: Vec<f64>,
+    /// The same for each row.
+    pub(super) of_rows: Vec<f64>,
     /// How it ended.
     pub(super) end: End,
     /// The same in words, for who wants to know why there is no solution.
@@ -115,17 +109,38 @@ impl Program {
         }
     }
 
-    /// A row that is equal to a value.
+    /// A sum of unknowns that is equal to a value; the equation's number.
     pub(super) fn equal(&mut self, terms: impl IntoIterator<Item = (usize, f64)>, value: f64) -> usize {
-        self.equal.push(terms, value)
+        self.equations.values.push(value);
+        self.equations.sums.push(terms)
     }
 
-    /// A row that is at most a value.
-    pub(super) fn at_most(&mut self, terms: impl IntoIterator<Item = (usize, f64)>, value: f64) -> usize {
-        self.at_most.push(terms, value)
+    /// A sum of unknowns that rows are about.
+    pub(super) fn sum(&mut self, terms: impl IntoIterator<Item = (usize, f64)>) -> usize {
+        self.sums.push(terms)
     }
 
-    /// The unknowns that cost least, by the method that makes use of how few terms each row has, and where rounding keeps that from an end by the general one.
+    /// A sum is at most a value; the row's number.
+    pub(super) fn at_most(&mut self, sum: usize, value: f64) -> usize {
+        self.row(Row { sum, value, above: None, below: Some(Cost::default()) })
+    }
+
+    /// A sum is at least a value; the row's number.
+    pub(super) fn at_least(&mut self, sum: usize, value: f64) -> usize {
+        self.row(Row { sum, value, above: Some(Cost::default()), below: None })
+    }
+
+    /// A sum costs when it is above or below a value. Together the linear costs of both sides are more than nothing.
+    pub(super) fn costs(&mut self, sum: usize, value: f64, above: Cost, below: Cost) -> usize {
+        self.row(Row { sum, value, above: Some(above), below: Some(below) })
+    }
+
+    fn row(&mut self, row: Row) -> usize {
+        self.rows.push(row);
+        self.rows.len() - 1
+    }
+
+    /// The unknowns that cost least, by the method that makes use of how few terms each sum has, and where rounding keeps that from an end by the general one.
     pub(super) fn solve(&self) -> Outcome {
         let outcome = interior::solve(self);
         if outcome.end != End::Unsettled {
@@ -151,7 +166,23 @@ mod tests {
     fn cost(program: &Program, x: &[f64]) -> f64 {
         let linear: f64 = program.linear.iter().zip(x).map(|(q, x)| q * x).sum();
         let square = |&(i, j, value): &(usize, usize, f64)| if i == j { 0.5 } else { 1.0 } * value * x[i] * x[j];
-        linear + program.quadratic.iter().map(square).sum::<f64>()
+        let sums = program.sums.times(x);
+        let of_row = |row: &Row| {
+            let off = sums[row.sum] - row.value;
+            let side = if off > 0.0 { row.above } else { row.below };
+            // Beyond a limit there is nothing but rounding.
+            side.map_or(0.0, |side| side.linear * off.abs() + 0.5 * side.square * off * off)
+        };
+        linear + program.quadratic.iter().map(square).sum::<f64>() + program.rows.iter().map(of_row).sum::<f64>()
+    }
+
+    /// Costs of a distance.
+    fn costs() -> impl Strategy<Value = [Cost; 2]> {
+        let square = || prop::sample::select(vec![0.0, 0.5, 1.5]);
+        let costs = (-2.0..2.0_f64, 0.01..2.0_f64, square(), square());
+        costs.prop_map(|(linear, more, square, other)| {
+            [Cost { linear, square }, Cost { linear: more - linear, square: other }]
+        })
     }
 
     proptest! {
@@ -162,6 +193,7 @@ mod tests {
             equal in prop::collection::vec((terms(12), -2.0..2.0_f64), 0..4),
             twice in any::<bool>(),
             at_most in prop::collection::vec((terms(12), -1.0..3.0_f64), 0..16),
+            priced in prop::collection::vec((terms(12), -2.0..2.0_f64, costs()), 0..8),
         ) {
             let mut program = Program::default();
             program.unknowns(linear.len());
@@ -169,8 +201,9 @@ mod tests {
                 program.cost(i, *q);
                 // Whatever else there is, the cost has a bound, and the unknowns have too.
                 program.square(&[(i, 1.0)], 0.0, 1e-3);
-                program.at_most([(i, 1.0)], 100.0);
-                program.at_most([(i, -1.0)], 100.0);
+                let sum = program.sum([(i, 1.0)]);
+                program.at_most(sum, 100.0);
+                program.at_least(sum, -100.0);
             }
             squares.iter().for_each(|(terms, offset, cost)| program.square(terms, *offset, *cost));
             // Equations that say the same twice, or nothing, are no contradiction.
@@ -180,34 +213,64 @@ mod tests {
             if twice {
                 program.equal([(0, 1.0), (0, -1.0)], 0.0);
             }
-            at_most.iter().for_each(|(terms, value)| { program.at_most(terms.iter().copied(), *value); });
+            for (terms, value) in &at_most {
+                let sum = program.sum(terms.iter().copied());
+                program.at_most(sum, *value);
+            }
+            for (terms, value, [above, below]) in &priced {
+                let sum = program.sum(terms.iter().copied());
+                program.costs(sum, *value, *above, *below);
+            }
             let (own, other) = (interior::solve(&program), general::solve(&program));
-            // Equations that contradict each other may be left to the other one.
-            let is_left = own.end == End::Unsettled && other.end == End::Infeasible && !equal.is_empty();
+            // Equations that contradict each other may be left to the other one, which does not always know either.
+            let is_left = [own.end, other.end].contains(&End::Unsettled) && !equal.is_empty();
             prop_assert!(own.end == other.end || is_left, "{own:?} {other:?}");
+            if own.end == End::Infeasible {
+                // Whatever keeps the rows keeps their sum by prices too, which is less than nothing, and no unknown makes as much of what it has there.
+                let (mut sum, mut worth) = (vec![0.0; linear.len()], 0.0);
+                program.equations.sums.add_transposed(&own.of_equations, &mut sum);
+                worth += program.equations.values.iter().zip(&own.of_equations).map(|(e, y)| e * y).sum::<f64>();
+                for (row, price) in program.rows.iter().zip(&own.of_rows) {
+                    let price = match row.only_side() {
+                        Some(sign) if sign * price < 0.0 => *price,
+                        _ => 0.0,
+                    };
+                    program.sums.of(row.sum).iter().for_each(|&(i, factor)| sum[i] += factor * price);
+                    worth += row.value * price;
+                }
+                prop_assert!(worth + 100.0 * sum.iter().map(|x| x.abs()).sum::<f64>() < 0.0);
+            }
             if own.end == End::Solved {
                 let [a, b] = [&own, &other].map(|outcome| cost(&program, &outcome.x));
                 prop_assert!((a - b).abs() <= 1e-6 * a.abs().max(1.0), "{a} {b}");
-                for (sum, value) in program.at_most.times(&own.x).iter().zip(&program.at_most.values) {
-                    prop_assert!(sum - value <= 1e-6);
+                let sums = program.sums.times(&own.x);
+                for (row, price) in program.rows.iter().zip(&own.of_rows) {
+                    let off = sums[row.sum] - row.value;
+                    // What a little more room in a row saves: the slope of its cost where there is one.
+                    let slope = |side: Option<Cost>, d: f64| side.map_or(f64::INFINITY, |side| side.linear + side.square * d);
+                    let [from, to] = if off > 1e-4 {
+                        [slope(row.above, off); 2]
+                    } else if off < -1e-4 {
+                        [-slope(row.below, -off); 2]
+                    } else {
+                        [-slope(row.below, 0.0), slope(row.above, 0.0)]
+                    };
+                    prop_assert!(from.min(to) - 1e-2 <= *price && *price <= to + 1e-2, "{off} {price} {from} {to}");
+                    prop_assert!((off <= 1e-6 || row.above.is_some()) && (off >= -1e-6 || row.below.is_some()));
                 }
-                for (sum, value) in program.equal.times(&own.x).iter().zip(&program.equal.values) {
+                for (sum, value) in program.equations.sums.times(&own.x).iter().zip(&program.equations.values) {
                     prop_assert!((sum - value).abs() <= 1e-6);
                 }
-                // Prices: what a little more room in a row saves.
-                let gradient = |x: &[f64]| {
-                    let mut sum = program.linear.clone();
-                    for &(i, j, value) in &program.quadratic {
-                        sum[i] += value * x[j];
-                        sum[j] += if i == j { 0.0 } else { value * x[i] };
-                    }
-                    sum
-                };
-                let mut off = gradient(&own.x);
-                program.equal.add_transposed(&own.equal, &mut off);
-                program.at_most.add_transposed(&own.at_most, &mut off);
+                let mut off = program.linear.clone();
+                for &(i, j, value) in &program.quadratic {
+                    off[i] += value * own.x[j];
+                    off[j] += if i == j { 0.0 } else { value * own.x[i] };
+                }
+                program.equations.sums.add_transposed(&own.of_equations, &mut off);
+                for (row, price) in program.rows.iter().zip(&own.of_rows) {
+                    program.sums.of(row.sum).iter().for_each(|&(i, factor)| off[i] += factor * price);
+                }
                 prop_assert!(off.iter().all(|off| off.abs() < 1e-5), "{off:?}");
-                prop_assert!(own.at_most.iter().all(|price| *price >= 0.0));
             }
         }
     }

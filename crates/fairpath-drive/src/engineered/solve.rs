@@ -6,7 +6,7 @@ use super::earthwork::{earthwork, stretch_ends, weight_at};
 use super::elastic;
 use super::error::EngineeredError;
 use super::network::{EngineeredNetwork, EngineeredRoad};
-use super::program::{End, Outcome, Program};
+use super::program::{Cost, End, Outcome, Program};
 use super::spline::{Ground, Layout, Terms};
 use super::validate::problems;
 use crate::profile::Profile;
@@ -71,6 +71,13 @@ impl EngineeredNetwork {
     /// When something that was told cannot be meant, with all that is wrong; when limits contradict each other, with what would have to give; when rounding
     /// keeps the solver from either.
     pub fn solve(&self) -> Result<EngineeredHeights, EngineeredError> {
+        let Profiles { profiles, strict, iterations } = self.profiles()?;
+        let earthwork = self.roads.iter().zip(&profiles).map(|(road, profile)| earthwork(road, profile)).collect();
+        Ok(EngineeredHeights { profiles, earthwork, strict, iterations })
+    }
+
+    /// The same without the earth that is moved.
+    pub(crate) fn profiles(&self) -> Result<Profiles, EngineeredError> {
         let problems = problems(self);
         if !problems.is_empty() {
             return Err(EngineeredError::Invalid { problems });
@@ -94,10 +101,15 @@ impl EngineeredNetwork {
         if !shortfalls.is_empty() {
             return Err(EngineeredError::Infeasible { shortfalls });
         }
-        let profiles: Vec<Profile> = profiles.into_iter().flatten().collect();
-        let earthwork = self.roads.iter().zip(&profiles).map(|(road, profile)| earthwork(road, profile)).collect();
-        Ok(EngineeredHeights { profiles, earthwork, strict, iterations })
+        Ok(Profiles { profiles: profiles.into_iter().flatten().collect(), strict, iterations })
     }
+}
+
+/// The profiles of a network, with what [`EngineeredHeights`] has beside.
+pub(crate) struct Profiles {
+    pub(crate) profiles: Vec<Profile>,
+    strict: bool,
+    iterations: u32,
 }
 
 /// Roads that hang together, with the places of their unknowns.
@@ -211,7 +223,10 @@ impl<'a> Part<'a> {
                 let value = asked.value - self.on_ground(row);
                 match asked.sense {
                     Sense::Equal => program.equal(row.iter().copied(), value),
-                    Sense::AtLeast => program.at_most(negated(row), -value - room * MARGIN.height_m),
+                    Sense::AtLeast => {
+                        let sum = program.sum(row.iter().copied());
+                        program.at_least(sum, value + room * MARGIN.height_m)
+                    }
                 };
             }
         }
@@ -223,38 +238,32 @@ impl<'a> Part<'a> {
         if length == 0.0 {
             return;
         }
-        let (cut, fill) = (length * road.section.cut_weight, length * road.section.fill_weight);
         let (width, run) = (road.section.platform_m, road.section.slope_run);
-        let lift = self.on_ground(&mean) - ground;
-        // Fill is an unknown; cut is fill less the height over the ground.
-        let unknown = program.unknowns(1);
-        let below = mean.map(|(i, factor)| (i, -factor));
-        let cut_terms = [(unknown, 1.0), below[0], below[1], below[2]];
-        program.cost(unknown, (fill + cut) * width);
-        below.iter().for_each(|&(i, factor)| program.cost(i, cut * width * factor));
-        program.square(&[(unknown, 1.0)], 0.0, 2.0 * fill * run);
-        program.square(&cut_terms, -lift, 2.0 * cut * run);
-        program.at_most([(unknown, -1.0)], 0.0);
-        program.at_most(cut_terms.map(|(i, factor)| (i, -factor)), -lift);
+        let cost = |weight: f64| Cost { linear: length * weight * width, square: 2.0 * length * weight * run };
+        let sum = program.sum(mean);
+        let value = ground - self.on_ground(&mean);
+        program.costs(sum, value, cost(road.section.fill_weight), cost(road.section.cut_weight));
     }
 
     /// The limits of grade and bend.
     fn design(&self, program: &mut Program, room: f64) {
+        let mut between = |terms: &[(usize, f64)], [least, most]: [f64; 2]| {
+            // In shares of the upper limit, so that grades and bends are of one size with heights.
+            let ground = self.on_ground(terms);
+            let sum = program.sum(terms.iter().map(|&(i, factor)| (i, factor / most)));
+            program.at_most(sum, (most - ground) / most);
+            program.at_least(sum, (least - ground) / most);
+        };
         for (_, road, layout, first) in self.each() {
             let h = layout.step_m;
-            let rise_limit = h * (road.limits.max_grade - room * MARGIN.grade);
+            let most = h * (road.limits.max_grade - room * MARGIN.grade);
             for knot in 0..layout.knots() {
-                let rise = layout.rise(knot).map(|(i, factor)| (first + i, factor));
-                let ground = self.on_ground(&rise);
-                program.at_most(rise, rise_limit - ground);
-                program.at_most(rise.map(|(i, factor)| (i, -factor)), rise_limit + ground);
+                between(&layout.rise(knot).map(|(i, factor)| (first + i, factor)), [-most, most]);
             }
             let bend_limit = |k: f64| h * h * greatest_bend(k) * (1.0 - room * MARGIN.k);
+            let [crest, sag] = [road.limits.crest_k_m, road.limits.sag_k_m].map(bend_limit);
             for interval in 0..layout.count {
-                let bend = shifted(layout.bend(interval), first);
-                let ground = self.on_ground(&bend);
-                program.at_most(bend, bend_limit(road.limits.sag_k_m) - ground);
-                program.at_most(bend.map(|(i, f)| (i, -f)), bend_limit(road.limits.crest_k_m) + ground);
+                between(&shifted(layout.bend(interval), first), [-crest, sag]);
             }
         }
     }
@@ -306,11 +315,6 @@ pub(super) fn greatest_bend(k_m: f64) -> f64 {
 
 pub(super) fn shifted(terms: Terms, first: usize) -> Terms {
     terms.map(|(i, factor)| (first + i, factor))
-}
-
-/// The terms with their signs changed.
-pub(super) fn negated(terms: &[(usize, f64)]) -> impl Iterator<Item = (usize, f64)> {
-    terms.iter().map(|&(i, factor)| (i, -factor))
 }
 
 /// The mean of what earthwork counts over a cell.

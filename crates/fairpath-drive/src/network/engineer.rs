@@ -68,7 +68,7 @@ pub(crate) fn engineered(
             (None, Some(road), meeting) => held(&mut roads[road], t, height(a, s), meeting.turned(), separation),
         }
     }
-    let mut found = EngineeredNetwork { roads, over, meet }.solve()?.profiles.into_iter();
+    let mut found = EngineeredNetwork { roads, over, meet }.profiles()?.profiles.into_iter();
     Ok(number.into_iter().map(|n| n.and_then(|_| found.next())).collect())
 }
 
