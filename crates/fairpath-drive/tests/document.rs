@@ -234,6 +234,24 @@ fn bridges_heights_and_intersections_go_on_over_the_seam_of_a_closed_path() {
 }
 
 #[test]
+fn a_ring_with_one_crossing_ends_as_it_begins() {
+    let ring = r#"{"do":"roundabout","at_m":[500,500],"radius_m":45,"name":"ring"}"#;
+    let road = r#"{"do":"sketch","name":"road","points_m":[[500,700],[500,600],[500,480]],"as":"new"}"#;
+    // The road lies so high that the ring leads up to it all the way around.
+    let high = r#"{"do":"elevation","path":"road","points_m":[[0,190],[200,190]]}"#;
+    for mode in ["fair", "draped", "engineered"] {
+        let heights = format!(r#"{{"do":"heights","path":"ring","mode":"{mode}"}}"#);
+        let document = document(&[HILLS, ring, road, high, &heights]);
+        let results = document.results().unwrap();
+        assert_eq!(results.crossings.len(), 1);
+        let profile = &results.path(document.state().path("ring").unwrap().id).unwrap().profile;
+        let [begin, end] = profile.range_m().map(|s| profile.at(s));
+        assert!((begin.height_m - end.height_m).abs() < 1e-9, "{mode}: {begin:?} {end:?}");
+        assert!((begin.grade - end.grade).abs() < 1e-9, "{mode}: {begin:?} {end:?}");
+    }
+}
+
+#[test]
 fn a_stroke_without_end_is_refused() {
     let mut document = document(&[HILLS]);
     let far: Command = serde_json::from_str(r#"{"do":"sketch","points_m":[[0,0],[1e9,0]]}"#).unwrap();

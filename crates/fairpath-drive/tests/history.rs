@@ -2,8 +2,8 @@
 
 use fairpath_curve::Point;
 use fairpath_drive::{
-    Carrier, Command, Crossing, CrossingSet, Document, DrawnHeights, HeightMode, Landscape, NoFiles, PathId, PathPlace,
-    Section, SketchAs, Soil, Structure, StructureLimits, TerrainSource, pillars,
+    Carrier, Command, Crossing, CrossingSet, DesignRules, Document, DrawnHeights, EarthworkOptions, HeightMode,
+    Landscape, NoFiles, PathId, PathPlace, Section, SketchAs, Soil, Structure, StructureLimits, TerrainSource, pillars,
 };
 
 /// A small generator of its own: the same on every platform.
@@ -43,6 +43,9 @@ fn name(document: &Document, random: &mut Random) -> String {
     let paths = &document.state().paths;
     if paths.is_empty() { "none".to_owned() } else { paths[random.below(paths.len())].name.clone() }
 }
+
+/// So many kinds of commands there are below.
+const KINDS: usize = 27;
 
 fn command(document: &Document, random: &mut Random, kind: usize) -> Command {
     match kind {
@@ -100,7 +103,7 @@ fn command(document: &Document, random: &mut Random, kind: usize) -> Command {
             path: Some(name(document, random)),
             mode: random.of(&[HeightMode::Fair, HeightMode::Draped, HeightMode::Engineered]),
         },
-        17 => Command::Roundabout {
+        16 | 17 => Command::Roundabout {
             at_m: random.place(),
             radius_m: 15.0 + 60.0 * random.next(),
             name: None,
@@ -120,7 +123,24 @@ fn command(document: &Document, random: &mut Random, kind: usize) -> Command {
             section.right[0].width_m = 2.5 + 4.0 * random.next();
             Command::DefineSection { section }
         }
-        _ => Command::Settings {
+        23 => {
+            let ([x, y], wide, high) = (random.place(), 40.0 + 80.0 * random.next(), 40.0 + 80.0 * random.next());
+            let place = |i: u8| {
+                let angle = std::f64::consts::TAU * f64::from(i) / 24.0;
+                [x + wide * libm::cos(angle), y + high * libm::sin(angle)]
+            };
+            Command::Sketch {
+                points_m: (0..24).map(place).collect(),
+                layer: "road".to_owned(),
+                name: None,
+                section: None,
+                sketch_as: SketchAs::New,
+                closed: true,
+                pixel_m: 1.0,
+                min_radius_m: Some(15.0),
+            }
+        }
+        24 => Command::Settings {
             structures: Some(StructureLimits {
                 bridge_above_m: 3.0 + 8.0 * random.next(),
                 ..StructureLimits::default()
@@ -129,6 +149,25 @@ fn command(document: &Document, random: &mut Random, kind: usize) -> Command {
             rules: None,
             seed: Some(random.below(5) as u64),
         },
+        25 => Command::Settings {
+            structures: None,
+            earthwork: Some(EarthworkOptions {
+                verge_m: 2.0 * random.next(),
+                verge_drop_m: 0.3 * random.next(),
+                reach_m: 5.0 + 30.0 * random.next(),
+            }),
+            rules: None,
+            seed: None,
+        },
+        _ => {
+            let mut rules = DesignRules::default();
+            let stricter = 0.5 + random.next();
+            for rule in &mut rules.speeds {
+                rule.k_crest *= stricter;
+                rule.k_sag *= stricter;
+            }
+            Command::Settings { structures: None, earthwork: None, rules: Some(rules), seed: None }
+        }
     }
 }
 
@@ -244,12 +283,17 @@ fn what_follows_does_not_depend_on_the_way_there_and_undoing_leads_back_to_the_s
         let mut trail = vec![document.results().unwrap().clone()];
         for k in 0..10 {
             // First of all there have to be paths.
-            let kind = if k < 3 { 0 } else { random.below(24) };
+            let kind = if k < 3 { 0 } else { random.below(KINDS) };
             let command = command(&document, &mut random, kind);
             match document.run(command, &NoFiles) {
                 Ok(_) => {
                     done += 1;
                     trail.push(document.results().unwrap().clone());
+                    // Of some of them after each command, of all at the end.
+                    if seed % 5 == 0 {
+                        let anew = document.results_anew().unwrap();
+                        assert!(anew == **document.results().unwrap(), "seed {seed}: {:?}", document.commands());
+                    }
                 }
                 Err(_) => refused += 1,
             }

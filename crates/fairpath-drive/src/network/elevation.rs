@@ -367,14 +367,11 @@ pub(crate) fn profile_with(path: &Path, alone: &Profile, wanted: &[[f64; 2]]) ->
         return alone.clone();
     }
     let ramp = |by: f64| (by.abs() * 1.5 / (RAMP_SHARE * path.section.max_grade)).max(LEAST_RAMP_M);
-    // Around a closed path what lies before its start is what lies before its end.
+    // Around a closed path what lies before its start is what lies before its end. Two turns, since a grade is told by the points on both sides, and there may be but one in a turn.
     let closed = path.plan.is_closed();
-    let around: Vec<[f64; 2]> = if closed {
-        let shifted = |turn: f64| by.iter().map(move |[s, d]| [s + turn * length, *d]);
-        shifted(-1.0).chain(shifted(0.0)).chain(shifted(1.0)).collect()
-    } else {
-        by.clone()
-    };
+    let turns = if closed { &[-2.0, -1.0, 0.0, 1.0, 2.0][..] } else { &[0.0] };
+    let around: Vec<[f64; 2]> =
+        turns.iter().flat_map(|turn| by.iter().map(move |[s, d]| [s + turn * length, *d])).collect();
     let mut points: Vec<[f64; 2]> = Vec::new();
     for (i, &[s, d]) in around.iter().enumerate() {
         let before = if i == 0 { f64::NEG_INFINITY } else { around[i - 1][0] + ramp(around[i - 1][1]) };
