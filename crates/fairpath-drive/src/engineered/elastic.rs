@@ -58,13 +58,16 @@ fn design_gives(part: &Part<'_>) -> (Program, Rows) {
     (0..part.base.len()).for_each(|i| program.square(&[(i, 1.0)], 0.0, PULL));
     for (_, road, layout, first) in part.each() {
         let h = layout.step_m;
-        // In shares of the upper limit, so that all costs are of one size.
+        // Each side in shares of its own limit, so that all costs are of one size.
         let mut soft = |terms: &[(usize, f64)], [least, most]: [f64; 2]| {
-            let ground = part.on_ground(terms) / most;
-            let sum = program.sum(terms.iter().map(|&(i, factor)| (i, factor / most)));
-            let cost = |share: f64| Cost { linear: h * share, square: SQUARES * h * share * share };
-            program.costs(sum, 1.0 - ground, cost(1.0), Cost::default());
-            program.costs(sum, least / most - ground, Cost::default(), cost(most / least.abs()));
+            let exceeded = Cost { linear: h, square: SQUARES * h };
+            let mut side = |limit: f64, above: Cost, below: Cost| {
+                let unit = 1.0 / limit.abs();
+                let sum = program.sum(terms.iter().map(|&(i, factor)| (i, factor * unit)));
+                program.costs(sum, (limit - part.on_ground(terms)) * unit, above, below);
+            };
+            side(most, exceeded, Cost::default());
+            side(least, Cost::default(), exceeded);
         };
         let most = h * road.limits.max_grade;
         for knot in 0..layout.knots() {

@@ -25,7 +25,7 @@ const MOST_STEPS: u32 = 100;
 const ROUNDED: f64 = 1e-7;
 const FARTHER: u32 = 2;
 
-/// Rows contradict each other when prices prove that whatever keeps them has an unknown greater than one over this: a height a thousand kilometres off the ground, or a limit that is exceeded a million times.
+/// Rows contradict each other when prices prove that whatever keeps them has an unknown greater than one over this: a height a thousand kilometres off the ground.
 const PROVED: f64 = 1e-6;
 
 /// What the square of a distance costs besides, in greatest costs, where the first point is looked for and distances may be negative. Ten times more or less makes a step or two more.
@@ -192,9 +192,8 @@ struct System<'a> {
     prices: Vec<f64>,
     /// c of sides.
     squares: Vec<f64>,
-    /// Sizes of the greatest value, and of the greatest of q.
-    greatest_value: f64,
-    greatest_cost: f64,
+    /// The size of the greatest value of equations, and of rows.
+    greatest: [f64; 2],
     /// s / (z + c s) of each side.
     softness: Vec<f64>,
     /// Of each row: one over what its sides have together.
@@ -254,8 +253,7 @@ impl<'a> System<'a> {
             by_entry: products.transposed(pattern.entries()),
             pattern,
             given,
-            greatest_value: size(&equations.values).max(size(&values)),
-            greatest_cost: size(&linear),
+            greatest: [size(&equations.values), size(&values)],
             softness: vec![1.0; sides.len()],
             weights: vec![1.0; rows.len()],
             linear,
@@ -354,12 +352,12 @@ impl<'a> System<'a> {
                 break;
             }
             let (x, y, w) = self.solve_first(&left);
-            let correction = Of { x, y, w, s: Vec::new() };
-            solution.add(1.0, &correction);
-            left = self.left(solution, right);
+            let mut next = Of { x, y, w, s: Vec::new() };
+            next.add(1.0, solution);
+            left = self.left(&next, right);
             let now = size(&left);
-            if !(now < before) {
-                solution.add(-1.0, &correction);
+            if now < before {
+                *solution = next;
             }
             if !(now < 0.5 * before) {
                 break;
@@ -637,8 +635,9 @@ impl Off {
         let unit = 1.0 / point.tau;
         let share = |off: f64, size: f64| off / size.max(1.0);
         let unknowns = unit * size(&point.at.x);
-        let rows = unit * size(&self.of.y).max(size(&self.of.w));
-        let rows = share(rows, system.greatest_value.max(unknowns).max(unit * size(&point.at.s)));
+        let [of_equations, of_rows] = system.greatest.map(|greatest| greatest.max(unknowns));
+        let equations = share(unit * size(&self.of.y), of_equations);
+        let rows = share(unit * size(&self.of.w), of_rows.max(unit * size(&point.at.s))).max(equations);
         if !(rows <= NEAR) {
             return None;
         }
@@ -646,7 +645,7 @@ impl Off {
         let cost = 0.5 * squares + unit * system.cost(&point.at);
         let bound = -0.5 * squares - unit * system.worth(&point.at);
         let prices = unit * size(&self.of.x).max(size(&self.of.s));
-        let prices = share(prices, system.greatest_cost.max(unknowns).max(unit * size(&point.z)));
+        let prices = share(prices, unknowns.max(unit * size(&point.z)));
         let gap = share((cost - bound).abs(), cost.abs().min(bound.abs()));
         Some(size(&[prices, gap]))
     }

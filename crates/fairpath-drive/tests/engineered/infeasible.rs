@@ -52,6 +52,23 @@ fn the_crossing_that_cannot_be_had_is_named() {
 }
 
 #[test]
+fn a_limit_that_is_far_from_reached_is_not_named() {
+    // So sharp a sag is none that a road could have.
+    for sag_k_m in [1.0, 1e-3, 1e-5] {
+        let mut hill = road(140.0, |_| 0.0);
+        hill.limits.max_grade = 0.08;
+        [hill.limits.crest_k_m, hill.limits.sag_k_m] = [100.0, sag_k_m];
+        hill.fixed = vec![fixed(0.0, 0.0), fixed(70.0, 9.0), fixed(140.0, 0.0)];
+        let found = shortfalls(&network(vec![hill]));
+        assert!(found.iter().all(|shortfall| shortfall.kind != ShortfallKind::SagK), "{found:?}");
+        // The sum over both sides of the hill, which is the same on both.
+        let grades = || found.iter().filter(|shortfall| shortfall.kind == ShortfallKind::Grade);
+        assert_eq!(grades().count(), 2, "{found:?}");
+        assert!(grades().all(|shortfall| (0.12..0.16).contains(&shortfall.needed)), "{found:?}");
+    }
+}
+
+#[test]
 fn a_grade_between_two_fixed_points_is_the_one_that_joins_them() {
     let mut steep = road(500.0, |_| 0.0);
     [steep.limits.crest_k_m, steep.limits.sag_k_m] = [1.0; 2];
