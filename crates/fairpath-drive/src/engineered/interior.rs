@@ -307,8 +307,8 @@ impl<'a> System<'a> {
     }
 
     /// Takes the softness of sides and factorises with it.
-    fn soften(&mut self, softness: impl Iterator<Item = f64>) {
-        set(&mut self.softness, softness);
+    fn soften(&mut self, softness: Vec<f64>) {
+        self.softness = softness;
         let Self { softness, weights, singles, .. } = self;
         let (first, below) = softness.split_at(weights.len());
         weights.copy_from_slice(first);
@@ -429,8 +429,7 @@ struct Off {
 impl Point {
     /// Where to begin: at the least cost of a program whose rows may be anywhere at a price, with distances and prices made positive.
     fn first(system: &mut System<'_>) -> Self {
-        let softness: Vec<f64> = system.squares.iter().map(|square| 1.0 / (square + FIRST_WEIGHT)).collect();
-        system.soften(softness.into_iter());
+        system.soften(system.squares.iter().map(|square| 1.0 / (square + FIRST_WEIGHT)).collect());
         let mut at = Newton::of_tau(system);
         let mut right = at.clone();
         right.s.iter_mut().zip(&system.softness).for_each(|(s, softness)| *s *= softness);
@@ -570,8 +569,8 @@ impl Newton {
     fn go_on(&mut self, point: &mut Point, system: &mut System<'_>, off: &Off) -> Option<f64> {
         let Point { at: Of { s, .. }, z, tau, kappa } = &*point;
         let softness = s.iter().zip(z).zip(&system.squares).map(|((s, z), square)| s / (z + square * s));
-        let softness: Vec<f64> = softness.collect();
-        system.soften(softness.into_iter());
+        let softness = softness.collect();
+        system.soften(softness);
         set(&mut self.tau.s, self.minus_prices.iter().zip(&system.softness).map(|(p, softness)| p * softness));
         system.solve(&self.tau, &mut self.for_tau);
         set(&mut self.inverse, s.iter().map(|s| 1.0 / s));
