@@ -3,19 +3,25 @@
 use fairpath_curve::Point;
 use fairpath_drive::{Carrier, Command, Document, NoFiles, Results, Scene, SceneOptions};
 
-/// Three wide roads straight through hills, whose tunnels begin where there is little ground above them.
-fn tunnels() -> Document {
+/// A document to which commands were done, given as the JSON of a script.
+fn document(commands: impl IntoIterator<Item = String>) -> Document {
     let mut document = Document::new();
-    let roads = [150, 500, 850].map(|y| {
-        format!(r#"{{"do":"sketch","points_m":[[20,{y}],[500,{y}],[1000,{y}]],"layer":"road","section":"four-lane"}}"#)
-    });
-    let terrain = r#"{"do":"terrain","synthetic":"hills","size":513,"cell_m":2.0,"seed":7}"#.to_owned();
-    let structures = r#"{"do":"settings","structures":{"tunnel_below_m":10.0}}"#.to_owned();
-    for text in [terrain, structures].into_iter().chain(roads) {
+    for text in commands {
         let command: Command = serde_json::from_str(&text).unwrap_or_else(|e| panic!("{text}: {e}"));
         document.run(command, &NoFiles).unwrap_or_else(|e| panic!("{text}: {e}"));
     }
     document
+}
+
+const HILLS: &str = r#"{"do":"terrain","synthetic":"hills","size":513,"cell_m":2.0,"seed":7}"#;
+
+/// Three wide roads straight through hills, whose tunnels begin where there is little ground above them.
+fn tunnels() -> Document {
+    let roads = [150, 500, 850].map(|y| {
+        format!(r#"{{"do":"sketch","points_m":[[20,{y}],[500,{y}],[1000,{y}]],"layer":"road","section":"four-lane"}}"#)
+    });
+    let structures = r#"{"do":"settings","structures":{"tunnel_below_m":10.0}}"#.to_owned();
+    document([HILLS.to_owned(), structures].into_iter().chain(roads))
 }
 
 /// How far each corner of the linings, further inside than portals and their lids reach, lies above the natural ground, m.
@@ -45,4 +51,59 @@ fn linings_of_tunnels_stay_below_the_ground() {
     assert!(above.len() > 500, "{} corners of linings", above.len());
     let highest = above.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     assert!(highest < 0.0, "{highest}");
+}
+
+/// Whether the way from one place to another leads through a triangle (Möller and Trumbore, *Fast, minimum storage ray/triangle intersection*, 1997).
+fn is_through([a, b, c]: [[f64; 3]; 3], from: [f64; 3], to: [f64; 3]) -> bool {
+    let minus = |p: [f64; 3], q: [f64; 3]| [p[0] - q[0], p[1] - q[1], p[2] - q[2]];
+    let cross =
+        |p: [f64; 3], q: [f64; 3]| [p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]];
+    let dot = |p: [f64; 3], q: [f64; 3]| p[0] * q[0] + p[1] * q[1] + p[2] * q[2];
+    let (way, ab, ac, off) = (minus(to, from), minus(b, a), minus(c, a), minus(from, a));
+    let normal = cross(way, ac);
+    let pivot = dot(ab, normal);
+    let (u, along) = (dot(off, normal) / pivot, cross(off, ab));
+    let (v, t) = (dot(way, along) / pivot, dot(ac, along) / pivot);
+    u >= 0.0 && v >= 0.0 && u + v <= 1.0 && (0.0..=1.0).contains(&t)
+}
+
+#[test]
+fn no_parapet_stands_across_an_intersection_on_a_bridge() {
+    // Road and ring lie so high that both are on bridges where they meet.
+    let commands = [
+        HILLS,
+        r#"{"do":"roundabout","at_m":[500,500],"radius_m":45,"name":"ring"}"#,
+        r#"{"do":"sketch","name":"road","points_m":[[500,700],[500,600],[500,480]],"as":"new"}"#,
+        r#"{"do":"elevation","path":"road","points_m":[[0,190],[200,190]]}"#,
+    ];
+    let document = document(commands.map(str::to_owned));
+    let results = document.results().unwrap();
+    assert_eq!(results.junctions.len(), 1);
+    let scene = Scene::of(document.state(), results, &SceneOptions::default());
+    let bridges: Vec<_> = scene.parts.iter().filter(|p| p.name.starts_with("bridges of")).map(|p| &p.mesh).collect();
+    assert_eq!(bridges.len(), 2);
+    let stand_in_the_way = |from: [f64; 3], to: [f64; 3]| {
+        let triangles =
+            bridges.iter().flat_map(|mesh| mesh.triangles.iter().map(|t| t.map(|i| mesh.vertices[i as usize])));
+        triangles.filter(|t| is_through(*t, from, to)).count()
+    };
+    for path in &results.paths {
+        let at = |station: f64, left_m: f64| {
+            let pose = path.path.plan.pose_at(station);
+            let left = fairpath_curve::trig::unit(pose.heading + std::f64::consts::FRAC_PI_2);
+            let place = pose.point + left * left_m;
+            [place.x, place.y, path.profile.at(station).height_m + 0.5]
+        };
+        let (_, [from, to]) = results.junctions[0].spans.iter().find(|span| span.0 == path.path.id).unwrap();
+        for lane in [-2.0, 2.0] {
+            for k in 0..20 {
+                let [a, b] = [k, k + 1].map(|k| at(from - 5.0 + (to - from + 10.0) * f64::from(k) / 20.0, lane));
+                assert_eq!(stand_in_the_way(a, b), 0, "{}: {a:?} {b:?}", path.path.name);
+            }
+        }
+        // Before it there are parapets on both sides.
+        for side in [-10.0, 10.0] {
+            assert!(stand_in_the_way(at(from - 10.0, 0.0), at(from - 10.0, side)) > 0, "{}", path.path.name);
+        }
+    }
 }

@@ -1,13 +1,16 @@
 //! Bridges: deck, parapets, abutments and pillars. No pillar stands on another path or in the way of its traffic.
 
-use super::roads::{beside, sections_within, wall};
+use super::roads::{beside, outside, sections_within, wall};
 use super::shape::{P3, band, cuboid, quad};
 use super::{Finish, Instances, Placement, Scene, part};
 use crate::document::{PathResult, Results};
 use crate::furniture::pillars;
-use crate::network::Carrier;
+use crate::ground::CrossSection;
+use crate::network::{Carrier, Junction};
 use crate::section::Material;
+use fairpath_curve::trig;
 use fairpath_shape::Mesh;
+use std::f64::consts::FRAC_PI_2;
 
 /// Height and thickness of a parapet, m.
 const PARAPET_M: [f64; 2] = [0.9, 0.25];
@@ -28,14 +31,18 @@ pub(super) fn add(scene: &mut Scene, path: &PathResult, results: &Results) {
         let line = |left_m: f64, above_m: f64| -> Vec<P3> { run.iter().map(|s| beside(s, left_m, above_m)).collect() };
         let deep = -section.thickness_m;
         let (out_left, out_right) = (left + PARAPET_M[1], right + PARAPET_M[1]);
-        // The slab: below and at its sides; what lies on it is the road.
+        // The slab: below and at its sides; what lies on it is the road, and parapets stand on it.
         band(&mut mesh, &line(-out_right, deep), &line(out_left, deep));
-        band(&mut mesh, &line(out_left, deep), &line(out_left, PARAPET_M[0]));
-        band(&mut mesh, &line(-out_right, PARAPET_M[0]), &line(-out_right, deep));
-        band(&mut mesh, &line(out_left, PARAPET_M[0]), &line(left, PARAPET_M[0]));
-        band(&mut mesh, &line(-right, PARAPET_M[0]), &line(-out_right, PARAPET_M[0]));
-        band(&mut mesh, &line(left, PARAPET_M[0]), &line(left, 0.0));
-        band(&mut mesh, &line(-right, 0.0), &line(-right, PARAPET_M[0]));
+        band(&mut mesh, &line(out_left, deep), &line(out_left, 0.0));
+        band(&mut mesh, &line(-out_right, 0.0), &line(-out_right, deep));
+        for sides in [[left, out_left], [-out_right, -right]] {
+            for range in guarded(path, results, sides[0] >= 0.0) {
+                let range = [range[0].max(bridge.from_m), range[1].min(bridge.to_m)];
+                if range[0] < range[1] {
+                    parapet(&mut mesh, &sections_within(&path.sections, range), sides);
+                }
+            }
+        }
         for (section, backward) in [(&run[0], true), (&run[run.len() - 1], false)] {
             // The abutment closes the embankment below the deck, down into the ground.
             let foot = section.natural_m.min(section.height_m + deep) - 1.0 - section.height_m;
@@ -76,4 +83,38 @@ pub(super) fn add(scene: &mut Scene, path: &PathResult, results: &Results) {
         at: at.collect(),
         parts: vec![unit],
     });
+}
+
+/// The stretches of a path along which nothing leads off to a side.
+fn guarded(path: &PathResult, results: &Results, is_left: bool) -> Vec<[f64; 2]> {
+    let (plan, length) = (&path.path.plan, path.path.length_m());
+    // Around a closed path a span may begin before its start.
+    let turns = if plan.is_closed() { &[-1.0, 0.0, 1.0][..] } else { &[0.0] };
+    let leads_off = |junction: &Junction, [from, to]: [f64; 2]| {
+        let middle = 0.5 * (from + to);
+        let middle = if plan.is_closed() { middle.rem_euclid(length) } else { middle.clamp(0.0, length) };
+        let middle = plan.pose_at(middle);
+        let left = trig::unit(middle.heading + FRAC_PI_2);
+        junction.arms.iter().any(|arm| {
+            let is_here = |turn: &f64| (from - 1.0..=to + 1.0).contains(&(arm.station_m + turn * length));
+            let is_own = arm.path == path.path.id && turns.iter().any(is_here);
+            let off = results.path(arm.path).map(|p| (p.path.plan.point_at(arm.station_m) - middle.point).dot(left));
+            !is_own && off.is_some_and(|off| (off > 0.0) == is_left)
+        })
+    };
+    let spans = results.junctions.iter().flat_map(|junction| junction.spans.iter().map(move |span| (junction, span)));
+    let own = spans.filter(|(junction, span)| span.0 == path.path.id && leads_off(junction, span.1));
+    outside(path, own.map(|(_, span)| span.1))
+}
+
+/// A parapet between two distances from the middle, from the one further to the right.
+fn parapet(mesh: &mut Mesh, run: &[CrossSection], [right, left]: [f64; 2]) {
+    let line = |left_m: f64, above_m: f64| -> Vec<P3> { run.iter().map(|s| beside(s, left_m, above_m)).collect() };
+    band(mesh, &line(left, 0.0), &line(left, PARAPET_M[0]));
+    band(mesh, &line(left, PARAPET_M[0]), &line(right, PARAPET_M[0]));
+    band(mesh, &line(right, PARAPET_M[0]), &line(right, 0.0));
+    for section in run.first().into_iter().chain(run.last()) {
+        let [low, high] = [0.0, PARAPET_M[0]].map(|above| [right, left].map(|left| beside(section, left, above)));
+        wall(mesh, &low, &high);
+    }
 }

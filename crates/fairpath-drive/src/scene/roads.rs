@@ -4,7 +4,7 @@ use super::shape::{P3, band, quad};
 use super::{Finish, Instances, Placement, Scene, part};
 use crate::document::PathResult;
 use crate::ground::CrossSection;
-use crate::network::{Junction, PathId};
+use crate::network::Junction;
 use crate::section::{Lane, LaneKind, Marking, Material, Section};
 use fairpath_shape::Mesh;
 use std::collections::BTreeMap;
@@ -21,7 +21,8 @@ const GAP_M: f64 = 6.0;
 pub(super) fn add(scene: &mut Scene, path: &PathResult, junctions: &[Arc<Junction>]) {
     let section = &path.path.section;
     let mut meshes: BTreeMap<Finish, Mesh> = BTreeMap::new();
-    for range in outside(path, junctions) {
+    let spans = junctions.iter().flat_map(|junction| &junction.spans);
+    for range in outside(path, spans.filter(|span| span.0 == path.path.id).map(|span| span.1)) {
         let run = sections_within(&path.sections, range);
         if run.len() < 2 {
             continue;
@@ -35,16 +36,15 @@ pub(super) fn add(scene: &mut Scene, path: &PathResult, junctions: &[Arc<Junctio
     pieces(scene, path);
 }
 
-/// The stretches of a path outside of intersections.
-fn outside(path: &PathResult, junctions: &[Arc<Junction>]) -> Vec<[f64; 2]> {
+/// The stretches of a path outside of intersections, of which the spans along it are given.
+pub(super) fn outside(path: &PathResult, spans: impl Iterator<Item = [f64; 2]>) -> Vec<[f64; 2]> {
     let length = path.path.length_m();
-    let own = |id: PathId| id == path.path.id;
     let mut within: Vec<[f64; 2]> = Vec::new();
-    for (_, [from, to]) in junctions.iter().flat_map(|j| &j.spans).filter(|s| own(s.0)) {
+    for [from, to] in spans {
         within.push([from.max(0.0), to.min(length)]);
         if path.path.plan.is_closed() {
-            within.extend((*from < 0.0).then_some([from + length, length]));
-            within.extend((*to > length).then_some([0.0, to - length]));
+            within.extend((from < 0.0).then_some([from + length, length]));
+            within.extend((to > length).then_some([0.0, to - length]));
         }
     }
     within.sort_by(|a, b| a[0].total_cmp(&b[0]));
