@@ -10,7 +10,7 @@ use crate::nearest::Piece;
 use crate::segment::Segment;
 use crate::spline::Spline;
 use crate::trig::{unit, wrap_angle};
-use kurbo::{Point, Vec2};
+use kurbo::{Point, Rect, Vec2};
 
 /// How two curves meet.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -236,18 +236,27 @@ impl Segment {
     }
 }
 
+/// A spline with boxes that hold its segments.
+type Boxed<'a> = (&'a Spline, &'a [Rect]);
+
+/// The boxes of all segments.
+fn boxes(spline: &Spline) -> Vec<Rect> {
+    spline.segments().iter().map(Segment::bounding_box).collect()
+}
+
 /// Common points of the pairs of segments that `wanted` lets through.
-fn between(a: &Spline, b: &Spline, wanted: impl Fn(usize, usize) -> bool) -> Vec<SplineIntersection> {
-    let boxes: Vec<_> = b.segments().iter().map(Segment::bounding_box).collect();
+fn between(
+    (a, of_a): Boxed<'_>,
+    (b, of_b): Boxed<'_>,
+    wanted: impl Fn(usize, usize) -> bool,
+) -> Vec<SplineIntersection> {
+    assert!(a.segments().len() == of_a.len() && b.segments().len() == of_b.len(), "each segment has a box");
     let size = a.length() + b.length();
     let mut found: Vec<SplineIntersection> = Vec::new();
-    for (i, x) in a.segments().iter().enumerate() {
-        let around = x.bounding_box().inflate(1e-12 * size, 1e-12 * size);
-        for (j, y) in b.segments().iter().enumerate() {
-            let apart = around.x1 < boxes[j].x0
-                || boxes[j].x1 < around.x0
-                || around.y1 < boxes[j].y0
-                || boxes[j].y1 < around.y0;
+    for (i, (x, own)) in a.segments().iter().zip(of_a).enumerate() {
+        let around = own.inflate(1e-12 * size, 1e-12 * size);
+        for (j, (y, other)) in b.segments().iter().zip(of_b).enumerate() {
+            let apart = around.x1 < other.x0 || other.x1 < around.x0 || around.y1 < other.y0 || other.y1 < around.y0;
             if apart || !wanted(i, j) {
                 continue;
             }
@@ -324,14 +333,33 @@ impl Spline {
     /// reported once; overlaps are reported for each pair of segments.
     #[must_use]
     pub fn intersections(&self, other: &Self) -> Vec<SplineIntersection> {
-        distinct(self, other, between(self, other, |_, _| true))
+        self.intersections_in(&boxes(self), other, &boxes(other))
+    }
+
+    /// The same, by boxes that are known: for each segment of this spline and of the other one its [`bounding_box`](Segment::bounding_box).
+    /// To find all places where one of many curves meets the others, these need not be worked out again and again.
+    ///
+    /// # Panics
+    /// When there are more or fewer boxes than segments.
+    #[must_use]
+    pub fn intersections_in(&self, own: &[Rect], other: &Self, others: &[Rect]) -> Vec<SplineIntersection> {
+        distinct(self, other, between((self, own), (other, others), |_, _| true))
     }
 
     /// All points where the spline meets itself at two different stations, the earlier place first; its joins do not count.
     #[must_use]
     pub fn self_intersections(&self) -> Vec<SplineIntersection> {
+        self.self_intersections_in(&boxes(self))
+    }
+
+    /// The same, by the [`bounding_box`](Segment::bounding_box) of each of its segments.
+    ///
+    /// # Panics
+    /// When there are more or fewer boxes than segments.
+    #[must_use]
+    pub fn self_intersections_in(&self, boxes: &[Rect]) -> Vec<SplineIntersection> {
         let turned = Turned::of(self);
-        let mut found = between(self, self, |i, j| i < j && turned.may_meet(i, j));
+        let mut found = between((self, boxes), (self, boxes), |i, j| i < j && turned.may_meet(i, j));
         let tolerance = 1e-7 * self.length();
         found.retain(|f| f.extent > 0.0 || !same_station(self, f.first, f.second, tolerance));
         for (segment, s) in self.segments().iter().enumerate() {

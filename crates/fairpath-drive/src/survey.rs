@@ -1,11 +1,11 @@
-//! What the natural terrain shows along a plan: the plan comes in, heights at the places where a path is compared with the ground go out.
+//! What the natural terrain shows along a plan: the plan comes in, heights at the places where a path is compared with the ground go out, and how far the plan reaches.
 //!
 //! Each segment of the plan is surveyed by itself: of a path that was drawn over only the segments that are new are surveyed again, however long the path is. And what is left of a segment
 //! that was cut is looked at where it was looked at before: the marks at which it is lie along the whole line, arc or clothoid of which the segment is a part, and places are told in steps
 //! far above rounding. So no cross-section moves that was not drawn over, and no height but by what a profile leads over.
 
 use crate::terrain::{Heightfield, Waters};
-use fairpath_curve::{Kind, Point, Segment, Spline, Vec2, trig};
+use fairpath_curve::{Kind, Point, Rect, Segment, Spline, Vec2, trig};
 use fairpath_fit::parallel;
 use std::sync::Arc;
 
@@ -45,6 +45,9 @@ pub(crate) const FREEBOARD_M: f64 = 2.0;
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Survey {
     segments: Vec<Arc<SurveyedSegment>>,
+    /// The box around each segment, and around all.
+    pub(crate) boxes: Vec<Rect>,
+    pub(crate) bounds: Rect,
     /// Where the last one ends.
     pub(crate) end: Step,
 }
@@ -53,6 +56,7 @@ pub(crate) struct Survey {
 #[derive(Debug, PartialEq)]
 pub(crate) struct SurveyedSegment {
     segment: Segment,
+    bounds: Rect,
     /// Where it begins between its marks, m: see [`origin_m`].
     from_m: f64,
     /// Without its ends, and none at all on a segment that is too short.
@@ -113,7 +117,10 @@ impl Survey {
         let (ahead, behind) = (old[..front].iter().cloned(), old[old.len() - back..].iter().cloned());
         let last = &new[new.len() - 1];
         let end = Step::of(last, last.length, ground, waters);
-        Self { segments: ahead.chain(fresh).chain(behind).collect(), end }
+        let segments: Vec<Arc<SurveyedSegment>> = ahead.chain(fresh).chain(behind).collect();
+        let boxes: Vec<Rect> = segments.iter().map(|surveyed| surveyed.bounds).collect();
+        let bounds = boxes.iter().fold(boxes[0], |bounds, other| bounds.union(*other));
+        Self { segments, boxes, bounds, end }
     }
 
     /// Its segments, each with the station at which it begins, m.
@@ -142,7 +149,7 @@ impl SurveyedSegment {
         let from_start = |marks: Vec<f64>| std::iter::once(0.0).chain(marks);
         let steps = from_start(marks(segment, from_m, STEP_M)).map(|s| Step::of(segment, s, ground, waters)).collect();
         let lines = from_start(cuts(segment, from_m)).map(|s| Line::of(segment, s, ground)).collect();
-        Self { segment: *segment, from_m, looks, steps, lines }
+        Self { segment: *segment, bounds: segment.bounding_box(), from_m, looks, steps, lines }
     }
 
     /// Its length, m.

@@ -8,8 +8,9 @@ use crate::ground::{
 };
 use crate::groups::Groups;
 use crate::network::{
-    Arm, Crossing, HeightMode, Junction, Path, PathId, PathPlace, Site, Structure, Unordered, alone, crossings_between,
-    crossings_within, decide, engineered, junctions, profile_with, structures, wanted_heights,
+    Arm, Crossing, HeightMode, Junction, Path, PathId, PathPlace, Site, Structure, Surveyed, Unordered, alone,
+    crossings_between, crossings_within, decide, engineered, junctions, profile_with, reach, structures,
+    wanted_heights,
 };
 use crate::profile::Profile;
 use crate::survey::Survey;
@@ -99,8 +100,6 @@ fn derived(before: Option<(&State, &Results)>, state: &State, terrain: &LaidTerr
         old_path(path.id)
             .is_some_and(|old| Arc::ptr_eq(&old.path.plan, &path.plan) && Arc::ptr_eq(&old.path.section, &path.section))
     };
-    let pairs = pairs(before.map(|(_, r)| &r.pairs), state, same_course);
-    let crossings = decided(&pairs, state);
     // Settings reach every path; a region of soil reaches those that lie on it, and telling which would cost more than it saves.
     let same_ground =
         before.is_some_and(|(old, _)| old.settings == state.settings && Arc::ptr_eq(&old.soils, &state.soils));
@@ -110,6 +109,8 @@ fn derived(before: Option<(&State, &Results)>, state: &State, terrain: &LaidTerr
         old => Arc::new(Survey::of(&path.plan, field, waters, old.map(|old| old.survey.as_ref()))),
     };
     let surveys: Vec<Arc<Survey>> = state.paths.iter().map(survey_of).collect();
+    let pairs = pairs(before.map(|(_, r)| &r.pairs), state, &surveys, same_course);
+    let crossings = decided(&pairs, state);
     let alone_of = |(path, survey): (&Arc<Path>, &Arc<Survey>)| match old_path(path.id) {
         Some(old) if same_course(path) && old.path.heights == path.heights && old.path.drawn == path.drawn => {
             old.alone.clone()
@@ -399,7 +400,12 @@ fn is_same_terrain(a: &LaidTerrain, b: &LaidTerrain) -> bool {
 }
 
 /// Crossings of all pairs; those of two paths that run as they did are kept.
-fn pairs(before: Option<&Pairs>, state: &State, same_course: impl Fn(&Arc<Path>) -> bool) -> Pairs {
+fn pairs(
+    before: Option<&Pairs>,
+    state: &State,
+    surveys: &[Arc<Survey>],
+    same_course: impl Fn(&Arc<Path>) -> bool,
+) -> Pairs {
     let fresh: Vec<bool> = state.paths.iter().map(|p| !same_course(p)).collect();
     let index = |id: PathId| state.paths.binary_search_by_key(&id, |p| p.id).ok();
     let mut pairs = Pairs::new();
@@ -408,28 +414,23 @@ fn pairs(before: Option<&Pairs>, state: &State, same_course: impl Fn(&Arc<Path>)
             pairs.insert(*ids, crossings.clone());
         }
     }
-    if !fresh.contains(&true) {
-        return pairs;
-    }
-    let boxes: Vec<Rect> = state.paths.iter().map(|p| reach(p)).collect();
-    for (i, a) in state.paths.iter().enumerate() {
-        for (j, b) in state.paths.iter().enumerate().skip(i) {
-            if !(fresh[i] || fresh[j]) || boxes[i].intersect(boxes[j]).is_zero_area() {
+    let surveyed = |i: usize| -> Surveyed<'_> { (&state.paths[i], &surveys[i]) };
+    let count = state.paths.len();
+    let boxes: Vec<Rect> = (0..count).map(|i| reach(surveyed(i))).collect();
+    for i in (0..count).filter(|&i| fresh[i]) {
+        // Two fresh ones are looked at once.
+        for j in (0..count).filter(|&j| j >= i || !fresh[j]) {
+            if boxes[i].intersect(boxes[j]).is_zero_area() {
                 continue;
             }
+            let [a, b] = [surveyed(i.min(j)), surveyed(i.max(j))];
             let found = if i == j { crossings_within(a) } else { crossings_between(a, b) };
             if !found.is_empty() {
-                pairs.insert([a.id, b.id], Arc::new(found));
+                pairs.insert([a.0.id, b.0.id], Arc::new(found));
             }
         }
     }
     pairs
-}
-
-/// The box in which a path can meet another one.
-fn reach(path: &Path) -> Rect {
-    let beyond = path.section.width_m() + 10.0;
-    path.plan.bounding_box().inflate(beyond, beyond)
 }
 
 /// All crossings, with what was said about them.

@@ -3,7 +3,8 @@
 
 use super::path::{Path, PathId};
 use crate::section::Crosses;
-use fairpath_curve::{Contact as Touch, Point};
+use crate::survey::Survey;
+use fairpath_curve::{Contact as Touch, Point, Rect};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -95,11 +96,20 @@ const STUB_WIDTHS: f64 = 1.5;
 /// What was said about a crossing that moved further than this is forgotten, m.
 const CHOICE_REACH_M: f64 = 60.0;
 
+/// A path and how far it reaches.
+pub(crate) type Surveyed<'a> = (&'a Path, &'a Survey);
+
+/// The box in which a path can meet another one.
+pub(crate) fn reach((path, survey): Surveyed<'_>) -> Rect {
+    let beyond = path.section.width_m() + 10.0;
+    survey.bounds.inflate(beyond, beyond)
+}
+
 /// All places where two different paths come together, `a` with the lower id, as if nothing had been said about them.
-pub(crate) fn crossings_between(a: &Path, b: &Path) -> Vec<Crossing> {
+pub(crate) fn crossings_between((a, of_a): Surveyed<'_>, (b, of_b): Surveyed<'_>) -> Vec<Crossing> {
     let place = |path: &Path, station_m| PathPlace { path: path.id, station_m };
     let mut found: Vec<Crossing> = Vec::new();
-    for x in a.plan.intersections(&b.plan) {
+    for x in a.plan.intersections_in(&of_a.boxes, &b.plan, &of_b.boxes) {
         // Paths that run along each other meet nowhere in particular.
         if x.contact == Touch::Overlap {
             continue;
@@ -111,10 +121,14 @@ pub(crate) fn crossings_between(a: &Path, b: &Path) -> Vec<Crossing> {
         found.push(Crossing { first, second, point: x.point, at_end, meeting: Meeting::Level });
     }
     let mut ends = Vec::new();
-    for (own, other, turned) in [(a, b, false), (b, a, true)] {
+    for (own, (other, survey), turned) in [(a, (b, of_b), false), (b, (a, of_a), true)] {
+        let reach = other.section.width_m() * 0.5 + END_REACH_M;
+        let around = survey.bounds.inflate(reach, reach);
         for station in own.ends() {
-            let reach = other.section.width_m() * 0.5 + END_REACH_M;
             let end = own.plan.point_at(station);
+            if !around.contains(end) {
+                continue;
+            }
             let near = other.plan.nearest(end);
             let on_other = other.snapped(other.plan.station(near.segment, near.s), own);
             let crossed = |c: &Crossing| {
@@ -148,10 +162,10 @@ pub(crate) fn crossings_between(a: &Path, b: &Path) -> Vec<Crossing> {
 }
 
 /// All places where a path comes together with itself.
-pub(crate) fn crossings_within(path: &Path) -> Vec<Crossing> {
+pub(crate) fn crossings_within((path, survey): Surveyed<'_>) -> Vec<Crossing> {
     let place = |station_m| PathPlace { path: path.id, station_m };
     let mut found: Vec<Crossing> = Vec::new();
-    for x in path.plan.self_intersections() {
+    for x in path.plan.self_intersections_in(&survey.boxes) {
         if x.contact == Touch::Overlap {
             continue;
         }
@@ -175,9 +189,10 @@ pub(crate) fn crossings_within(path: &Path) -> Vec<Crossing> {
             .plan
             .segments()
             .iter()
+            .zip(&survey.boxes)
             .enumerate()
-            .filter(|(_, segment)| segment.bounding_box().inflate(reach, reach).contains(end))
-            .flat_map(|(i, segment)| segment.nearest_all(end).into_iter().map(move |n| (i, n)))
+            .filter(|(_, (_, bounds))| bounds.inflate(reach, reach).contains(end))
+            .flat_map(|(i, (segment, _))| segment.nearest_all(end).into_iter().map(move |n| (i, n)))
             .map(|(i, n)| (path.plan.station(i, n.s), n))
             .filter(|(s, n)| !own(*s) && n.distance <= reach)
             .min_by(|p, q| p.1.distance.total_cmp(&q.1.distance));

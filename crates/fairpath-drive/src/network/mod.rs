@@ -15,7 +15,7 @@ pub use path::{DrawnHeights, HeightMode, Path, PathId, SpeedZone};
 pub use sketch::{SketchScale, SketchedPlan};
 pub use structure::{Carrier, Structure, StructureLimits};
 
-pub(crate) use contact::{crossings_between, crossings_within, decide};
+pub(crate) use contact::{Surveyed, crossings_between, crossings_within, decide, reach};
 pub(crate) use elevation::{alone, profile_with, separation_m, wanted_heights};
 pub(crate) use engineer::{Site, engineered};
 pub(crate) use junction::junctions;
