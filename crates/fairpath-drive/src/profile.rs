@@ -182,7 +182,26 @@ impl Profile {
             let height_m = knot.height_m + knot.grade * (station_m - knot.station_m);
             return Elevation { height_m, grade: knot.grade, bend_per_m: 0.0 };
         }
-        let piece = self.piece(station_m);
+        self.on_piece(self.piece(station_m), station_m)
+    }
+
+    /// The same for stations that mostly ascend: each looks for its piece from that of the one before.
+    pub(crate) fn along(&self) -> impl FnMut(f64) -> Elevation + '_ {
+        let [first, last] = self.range_m();
+        let mut piece = 0;
+        move |station_m| {
+            if !(first..=last).contains(&station_m) || station_m < self.knots[piece].station_m {
+                piece = 0;
+                return self.at(station_m);
+            }
+            while piece + 2 < self.knots.len() && self.knots[piece + 1].station_m <= station_m {
+                piece += 1;
+            }
+            self.on_piece(piece, station_m)
+        }
+    }
+
+    fn on_piece(&self, piece: usize, station_m: f64) -> Elevation {
         let t = station_m - self.knots[piece].station_m;
         let [a, b, c, d] = self.cubic(piece);
         Elevation {
@@ -321,6 +340,29 @@ mod tests {
     use proptest::prelude::*;
 
     proptest! {
+        #[test]
+        fn along_a_profile_all_is_as_it_is_at_each_station(
+            heights in prop::collection::vec((0.1..9.0_f64, -5.0..5.0_f64, -0.5..0.5_f64), 2..9),
+            stations in prop::collection::vec((-9.0..60.0_f64, any::<bool>()), 1..30),
+        ) {
+            let mut station_m = 0.0;
+            let knots = heights.iter().map(|&(step, height_m, grade)| {
+                station_m += step;
+                Knot { station_m, height_m, grade }
+            });
+            let profile = Profile::new(knots.collect()).unwrap();
+            let mut stations: Vec<f64> = stations.into_iter().map(|(s, is_knot)| {
+                let nearest = |a: &&Knot, b: &&Knot| (a.station_m - s).abs().total_cmp(&(b.station_m - s).abs());
+                if is_knot { profile.knots().iter().min_by(nearest).unwrap().station_m } else { s }
+            }).collect();
+            // In any order, then as they ascend.
+            let mut along = profile.along();
+            prop_assert!(stations.iter().all(|s| along(*s) == profile.at(*s)));
+            stations.sort_by(f64::total_cmp);
+            let mut along = profile.along();
+            prop_assert!(stations.iter().all(|s| along(*s) == profile.at(*s)));
+        }
+
         #[test]
         fn a_piece_is_steeper_where_its_samples_are(
             length in 0.1..50.0_f64, rise in -5.0..5.0_f64, grades in [-0.5..0.5_f64, -0.5..0.5_f64], limit in 0.01..1.0_f64,

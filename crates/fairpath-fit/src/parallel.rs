@@ -28,6 +28,18 @@ pub fn find_map<T: Sync, R: Send>(items: &[T], f: impl Fn(&T) -> Option<R> + Syn
     items.iter().find_map(f)
 }
 
+/// What two pieces of work come to, one on each of two threads if there are as many.
+#[cfg(feature = "parallel")]
+pub fn join<A: Send, B: Send>(a: impl FnOnce() -> A + Send, b: impl FnOnce() -> B + Send) -> (A, B) {
+    rayon::join(a, b)
+}
+
+/// What two pieces of work come to, one after the other.
+#[cfg(not(feature = "parallel"))]
+pub fn join<A: Send, B: Send>(a: impl FnOnce() -> A + Send, b: impl FnOnce() -> B + Send) -> (A, B) {
+    (a(), b())
+}
+
 /// Does `work` on one of the threads, so that what it maps meanwhile need not wake them each time.
 #[cfg(feature = "parallel")]
 pub fn within<R: Send>(work: impl FnOnce() -> R + Send) -> R {

@@ -38,13 +38,13 @@ fn pace(path: &Path) -> Result<(), Box<dyn Error>> {
     // Once as all paths are drawn, fair, and once as the script has them.
     let as_it_is = document.state().paths.iter().any(|p| p.heights == HeightMode::Engineered);
     if as_it_is {
-        measured(&mut document, path, "engineered")?;
+        measured(&document, path, "engineered")?;
     }
     document.run(Command::Heights { path: None, mode: HeightMode::Fair }, &NoFiles)?;
-    measured(&mut document, path, "fair")
+    measured(&document, path, "fair")
 }
 
-fn measured(document: &mut Document, path: &Path, mode: &str) -> Result<(), Box<dyn Error>> {
+fn measured(document: &Document, path: &Path, mode: &str) -> Result<(), Box<dyn Error>> {
     let terrain = document.state().terrain.clone().ok_or("there is no terrain")?;
     let (mut edits, mut fits, mut refused) = (Vec::new(), Vec::new(), 0);
     for old in document.state().paths.clone() {
@@ -69,12 +69,12 @@ fn measured(document: &mut Document, path: &Path, mode: &str) -> Result<(), Box<
             let command = Command::Oversketch { points_m, path, pixel_m: PIXEL_M };
             let (mut edit, mut fit) = (Vec::new(), Vec::new());
             for _ in 0..RUNS {
+                let mut edited = document.clone();
                 let begun = Instant::now();
-                if document.run(command.clone(), &NoFiles).is_err() {
+                if edited.run(command.clone(), &NoFiles).is_err() {
                     break;
                 }
                 edit.push(1e3 * begun.elapsed().as_secs_f64());
-                document.undo();
                 let scale = SketchScale { pixel_m: PIXEL_M, min_radius_m: old.section.min_radius_m };
                 let begun = Instant::now();
                 let stroke = fairpath_fit::Stroke::new("s", scale.evened(&points));

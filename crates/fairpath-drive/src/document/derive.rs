@@ -109,15 +109,17 @@ fn derived(before: Option<(&State, &Results)>, state: &State, terrain: &LaidTerr
         old => Arc::new(Survey::of(&path.plan, field, waters, old.map(|old| old.survey.as_ref()))),
     };
     let surveys: Vec<Arc<Survey>> = state.paths.iter().map(survey_of).collect();
-    let pairs = pairs(before.map(|(_, r)| &r.pairs), state, &surveys, same_course);
-    let crossings = decided(&pairs, state);
     let alone_of = |(path, survey): (&Arc<Path>, &Arc<Survey>)| match old_path(path.id) {
         Some(old) if same_course(path) && old.path.heights == path.heights && old.path.drawn == path.drawn => {
             old.alone.clone()
         }
         _ => Arc::new(alone(path, survey, field, waters)),
     };
-    let alone_of: Vec<Arc<Profile>> = state.paths.iter().zip(&surveys).map(alone_of).collect();
+    let (pairs, alone_of) = parallel::join(
+        || pairs(before.map(|(_, r)| &r.pairs), state, &surveys, same_course),
+        || state.paths.iter().zip(&surveys).map(alone_of).collect::<Vec<Arc<Profile>>>(),
+    );
+    let crossings = decided(&pairs, state);
     let mut crossings_of: Vec<Vec<Crossing>> = vec![Vec::new(); state.paths.len()];
     let index = |id: PathId| state.paths.binary_search_by_key(&id, |p| p.id).ok();
     for crossing in &crossings {
@@ -207,20 +209,23 @@ fn derived(before: Option<(&State, &Results)>, state: &State, terrain: &LaidTerr
     }
     let gone = before.into_iter().flat_map(|(_, r)| &r.paths).filter(|old| index(old.path.id).is_none());
     gone.for_each(|old| dirty.compare(Some(&old.corridor), None));
-    let ground = if dirty.shaped.is_empty() {
-        old_ground.clone()
-    } else {
-        let corridors: Vec<&Hits> = paths.iter().map(|p| &p.corridor.hits).collect();
-        old_ground.reshaped(&dirty.shaped, &corridors)
+    let shaped = || {
+        let ground = if dirty.shaped.is_empty() {
+            old_ground.clone()
+        } else {
+            let corridors: Vec<&Hits> = paths.iter().map(|p| &p.corridor.hits).collect();
+            old_ground.reshaped(&dirty.shaped, &corridors)
+        };
+        let (wild, trees) = planted(before, state, terrain, &paths, &ground, &dirty);
+        (ground, wild, trees)
     };
-    let junctions = intersections(before.map(|(_, r)| r), state, &paths, &crossings);
-    let signs = posted(
-        before.filter(|(old, _)| Arc::ptr_eq(&old.rules, &state.rules)).map(|(_, r)| r),
-        state,
-        &paths,
-        &junctions,
-    );
-    let (wild, trees) = planted(before, state, terrain, &paths, &ground, &dirty);
+    let met = || {
+        let junctions = intersections(before.map(|(_, r)| r), state, &paths, &crossings);
+        let before = before.filter(|(old, _)| Arc::ptr_eq(&old.rules, &state.rules)).map(|(_, r)| r);
+        let signs = posted(before, state, &paths, &junctions);
+        (junctions, signs)
+    };
+    let ((ground, wild, trees), (junctions, signs)) = parallel::join(shaped, met);
     Results { paths, crossings, junctions, signs, trees, ground, unordered, pairs, wild }
 }
 

@@ -171,6 +171,7 @@ fn bare_sections(
     natural: &Heightfield,
 ) -> Vec<CrossSection> {
     let half = path.section.half_widths_m();
+    let mut elevation = profile.along();
     let bare = |Place { station_m, line, carrier }: Place| {
         let side =
             |i: usize| Side { half_width_m: half[i], daylight_m: half[i], cut_run: 1.0, fill_run: 1.0, wall: false };
@@ -179,7 +180,7 @@ fn bare_sections(
             point: line.point,
             left: line.left,
             curvature: line.curvature,
-            height_m: (profile.at(station_m).height_m / HEIGHT_STEP_M).round() * HEIGHT_STEP_M + 0.0,
+            height_m: (elevation(station_m).height_m / HEIGHT_STEP_M).round() * HEIGHT_STEP_M + 0.0,
             natural_m: line.natural_m,
             on_ground: carrier.is_none() && path.section.shapes_ground,
             covered: carrier == Some(Carrier::Tunnel),

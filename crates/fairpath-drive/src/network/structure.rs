@@ -79,9 +79,10 @@ pub(crate) fn structures<'a>(
     }
     let (length, closed) = (path.length_m(), path.plan.is_closed());
     let (mut stations, mut at) = (Vec::new(), Vec::new());
+    let mut elevation = profile.along();
     let mut compare = |station: f64, step: &Step| {
         stations.push(station);
-        at.push((profile.at(station).height_m - step.natural_m, step.is_wet));
+        at.push((elevation(station).height_m - step.natural_m, step.is_wet));
     };
     for (start, segment) in survey.segments() {
         segment.steps.iter().for_each(|step| compare(start + step.s_m, step));
