@@ -441,28 +441,35 @@ impl Segment {
         };
         merged.into_iter().map(|(s, _)| nearest(s.clamp(0.0, self.length))).collect()
     }
-
-    /// A lower bound of the distance of `point` from the segment whose end is at `end`: every point of the segment lies in
-    /// the ellipse with the ends as foci and the arc length as the long axis.
-    fn distance_bound(&self, end: Point, point: Point) -> f64 {
-        (0.5 * (length_of(point - self.start) + length_of(point - end) - self.length)).max(0.0)
-    }
 }
 
 impl Spline {
+    /// For each segment a lower bound of its distance from `point`, quickly told: every point of a segment lies in the ellipse with its ends as foci and its arc length as the long axis.
+    /// Since knots of a valid spline agree to 1e-9 of its size only, a bound may exceed the distance by as little.
+    #[must_use]
+    pub fn distance_bounds(&self, point: Point) -> Vec<f64> {
+        let segments = self.segments();
+        let last = segments[segments.len() - 1];
+        let knots = segments.iter().map(|segment| segment.start).chain([last.end()]);
+        let mut away = knots.map(|knot| length_of(point - knot));
+        let mut before = away.next().unwrap_or(0.0);
+        let bound = |(segment, after): (&Segment, f64)| {
+            let ends = std::mem::replace(&mut before, after) + after;
+            (0.5 * (ends - segment.length)).max(0.0)
+        };
+        segments.iter().zip(away).map(bound).collect()
+    }
+
     /// The point of the spline nearest to `point`; of several equally near, one of them. See [`Segment::nearest`] for the accuracy.
     ///
     /// Segments are skipped by a bound from their knots.
     #[must_use]
     pub fn nearest(&self, point: Point) -> SplineNearest {
         let segments = self.segments();
-        let last = segments.len() - 1;
-        let knot = |i: usize| if i < last { segments[i + 1].start } else { segments[last].end() };
-        let lower = |i: usize| segments[i].distance_bound(knot(i), point);
+        let bounds = self.distance_bounds(point);
         // The most promising segment first.
         let mut first = (0, f64::INFINITY);
-        for i in 0..=last {
-            let bound = lower(i);
+        for (i, &bound) in bounds.iter().enumerate() {
             if bound < first.1 {
                 first = (i, bound);
             }
@@ -473,7 +480,7 @@ impl Spline {
         for (i, segment) in segments.iter().enumerate() {
             // Knots of a valid spline agree to 1e-9 of its size; the bound allows for that.
             if i != first.0
-                && lower(i) * (1.0 - 1e-8) < best.distance
+                && bounds[i] * (1.0 - 1e-8) < best.distance
                 && let Some(found) = nearer_than(segment, point, best.distance * best.distance)
                 && found.distance < best.distance
             {

@@ -2,10 +2,11 @@
 
 use crate::clean::Cleaned;
 use crate::options::Closing;
+use crate::parallel;
 use crate::result::{Report, Warning};
 use crate::stroke::Stroke;
 use crate::track::{Shape, Track};
-use fairpath_curve::{Continuity, Segment, Spline, trig};
+use fairpath_curve::{Continuity, Point, Segment, Spline, trig};
 
 /// Segments in pixels, their joins, and whether the last runs back into the first.
 pub(crate) type Parts = (Vec<Segment>, Vec<Continuity>, bool);
@@ -43,8 +44,7 @@ pub(crate) fn closing_warnings(track: &Track, closed: Closing) -> Vec<Warning> {
 /// Measures the curve against the stroke's own points. Its pieces are its segments, unless the method has counted others.
 pub(crate) fn describe(report: &mut Report, spline: &Spline, stroke: &Stroke, pixel_size: f64) {
     let (mut largest, mut squares) = (0.0_f64, 0.0);
-    for &point in &stroke.points {
-        let d = spline.nearest(point).distance;
+    for d in distances(spline, &stroke.points) {
         largest = largest.max(d);
         squares += d * d;
     }
@@ -62,6 +62,11 @@ pub(crate) fn describe(report: &mut Report, spline: &Spline, stroke: &Stroke, pi
         }
         sign = kappa.signum();
     }
+}
+
+/// How far points are from a curve.
+pub(crate) fn distances(spline: &Spline, points: &[Point]) -> Vec<f64> {
+    parallel::map(points, |point| spline.nearest(*point).distance)
 }
 
 /// Curvature that has no sign, radians per px.

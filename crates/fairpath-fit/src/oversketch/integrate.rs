@@ -1,8 +1,9 @@
 //! One stroke of the sketch and of the parts of the old curve beside it (section 3.7 and the middle of figure 8 of Baran et al. 2010).
 
 use super::region::{Replaced, corners};
+use crate::conclude::distances;
 use crate::polyline::Polyline;
-use fairpath_curve::{Spline, Vec2};
+use fairpath_curve::{Point, Spline, Vec2};
 
 /// Distance of the points taken from the old curve, px.
 const SPACING: f64 = 2.0;
@@ -62,7 +63,8 @@ pub(super) fn integrated(curve: &Spline, sketch: &[Vec2], replaced: &Replaced, [
     course.follow(curve, replaced.to, end);
     let line = Polyline::new(course.points);
     let corners = course.corners.into_iter().map(|i| line.s[i]).collect();
-    let departure = sketch.iter().map(|p| curve.nearest(p.to_point()).distance).fold(0.0, f64::max);
+    let sketched: Vec<Point> = sketch.iter().map(|p| p.to_point()).collect();
+    let departure = distances(curve, &sketched).into_iter().fold(0.0, f64::max);
     let sketch = [line.s[first], line.s[last]];
     Integrated { line, sketch, departure, corners }
 }

@@ -13,7 +13,7 @@ pub use error::OversketchError;
 pub use options::{OversketchMode, OversketchOptions};
 
 use crate::clean::{Cleaned, clean};
-use crate::conclude::describe;
+use crate::conclude::{describe, distances};
 use crate::options::{Closing, FitOptions};
 use crate::polyline::Polyline;
 use crate::result::{Fit, FitError, Report, Warning};
@@ -175,8 +175,8 @@ struct Made {
 impl Made {
     /// The largest distance of the points from the curve, px.
     fn farthest(&self, cleaned: &Cleaned) -> f64 {
-        let away = |p: &Vec2| self.spline.nearest(cleaned.restore(*p)).distance / cleaned.scale;
-        self.course.iter().map(away).fold(0.0, f64::max)
+        let course: Vec<Point> = self.course.iter().map(|p| cleaned.restore(*p)).collect();
+        distances(&self.spline, &course).into_iter().map(|away| away / cleaned.scale).fold(0.0, f64::max)
     }
 }
 

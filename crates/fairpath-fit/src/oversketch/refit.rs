@@ -3,14 +3,14 @@
 use super::integrate::Integrated;
 use super::options::OversketchOptions;
 use crate::clean::Cleaned;
-use crate::conclude::Parts;
+use crate::conclude::{Parts, distances};
 use crate::corners::corners;
 use crate::options::FitOptions;
 use crate::polyline::Polyline;
 use crate::shortest_path::hold::Hold;
 use crate::shortest_path::{LONGER, STRAY, closer, fit_track, loosened};
 use crate::track::{Track, around, between};
-use fairpath_curve::{Segment, Spline, Vec2, trig};
+use fairpath_curve::{Point, Segment, Spline, Vec2, trig};
 
 /// Length on both sides from which the angle is told at which the stroke leaves the curve, px.
 const LEG: f64 = 12.0;
@@ -111,7 +111,8 @@ fn best(
 /// How far a curve is from its course: in distance, and half of what it is longer, which shows a loop that nobody drew.
 fn astray((segments, joins, closed): &Parts, line: &Polyline) -> Option<f64> {
     let spline = Spline::new(segments.clone(), joins.clone(), *closed).ok()?;
-    let largest = line.points.iter().map(|p| spline.nearest(p.to_point()).distance).fold(0.0, f64::max);
+    let course: Vec<Point> = line.points.iter().map(|p| p.to_point()).collect();
+    let largest = distances(&spline, &course).into_iter().fold(0.0, f64::max);
     Some(largest.max(0.5 * (spline.length() - LONGER * line.length())))
 }
 

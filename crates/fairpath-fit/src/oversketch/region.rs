@@ -84,8 +84,10 @@ fn stroke_end(curve: &Spline, sketch: &Polyline, last: bool, options: &Oversketc
     let direction = if chord.hypot2() > 0.0 { chord / chord.hypot2().sqrt() } else { Vec2::ZERO };
     let mut best: Option<(f64, f64, f64)> = None;
     let mut begin = 0.0;
-    for segment in curve.segments() {
-        for near in segment.nearest_all(point.to_point()).into_iter().filter(|near| near.distance <= options.reach) {
+    for (segment, bound) in curve.segments().iter().zip(curve.distance_bounds(point.to_point())) {
+        // Most of a long curve is far away.
+        let nearest = if bound <= 2.0 * options.reach { segment.nearest_all(point.to_point()) } else { Vec::new() };
+        for near in nearest.into_iter().filter(|near| near.distance <= options.reach) {
             let askew = segment.tangent_at(near.s).cross(direction).abs();
             let price = near.distance + ASKEW * askew;
             if best.is_none_or(|b| price < b.0) {
