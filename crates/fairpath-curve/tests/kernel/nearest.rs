@@ -69,6 +69,16 @@ proptest! {
     }
 
     #[test]
+    fn no_segment_is_nearer_than_its_bound(s in spline(), q in query()) {
+        let p = s.segments()[0].start + q * s.length();
+        let bounds = s.distance_bounds(p);
+        prop_assert_eq!(bounds.len(), s.segments().len());
+        for (segment, bound) in s.segments().iter().zip(bounds) {
+            prop_assert!(bound <= segment.nearest(p).distance + 1e-8 * s.length(), "{bound}");
+        }
+    }
+
+    #[test]
     fn nearest_of_a_spline_is_the_best_of_its_segments(s in spline(), q in query()) {
         let p = Point::ORIGIN + q;
         let found = s.nearest(p);

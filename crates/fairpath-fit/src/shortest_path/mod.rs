@@ -184,10 +184,13 @@ fn attempt(
         if surprise {
             graph.burden(&path, cost - path.cost);
         }
-        if best.as_ref().is_none_or(|b| cost < cost_of(&b.1)) {
+        let least = best.as_ref().map_or(f64::INFINITY, |b| cost_of(&b.1));
+        // Between held ends, where a second path comes to what the first one did, so mostly does a third.
+        let is_in_vain = is_held && least.is_finite() && !(cost < WORTH_A_ROUND * least);
+        if best.is_none() || cost < least {
             best = Some((path, merged));
         }
-        if !surprise {
+        if !surprise || is_in_vain {
             break;
         }
     }
@@ -215,6 +218,9 @@ const REFINED: f64 = 2.0;
 
 /// Most paths that are merged where ends meet or are held.
 const SURPRISED_ROUNDS: usize = 3;
+
+/// One more path is worth another round if it costs less than this share of the best one before.
+const WORTH_A_ROUND: f64 = 0.99;
 
 /// A merged path that costs more than this many times what its path did was misjudged.
 const SURPRISE: f64 = 1.5;
