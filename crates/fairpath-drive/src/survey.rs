@@ -123,6 +123,12 @@ impl Survey {
         Self { segments, boxes, bounds, end }
     }
 
+    /// Its steps with their stations, m, ascending, from the start of the plan to its end.
+    pub(crate) fn stationed(&self) -> impl Iterator<Item = (f64, &Step)> {
+        let steps = self.segments().flat_map(|(start, segment)| segment.steps.iter().map(move |s| (start + s.s_m, s)));
+        steps.chain([(self.segments.iter().map(|surveyed| surveyed.segment.length).sum(), &self.end)])
+    }
+
     /// Its segments, each with the station at which it begins, m.
     pub(crate) fn segments(&self) -> impl Iterator<Item = (f64, &SurveyedSegment)> {
         self.segments.iter().scan(0.0, |before, surveyed| {

@@ -129,9 +129,9 @@ fn derived(before: Option<(&State, &Results)>, state: &State, terrain: &LaidTerr
     }
     let old = before.map(|(_, r)| r);
     let same_rules = before.is_some_and(|(old, _)| Arc::ptr_eq(&old.rules, &state.rules));
-    let (elevations, unordered) = heights(old, state, terrain, (&alone_of, &crossings, &crossings_of), &|path| {
-        is_old(path) && same_ground && same_rules
-    });
+    let known = Known { surveys: &surveys, alone: &alone_of, crossings: &crossings, crossings_of: &crossings_of };
+    let (elevations, unordered) =
+        heights(old, state, terrain, known, &|path| is_old(path) && same_ground && same_rules);
     let mut paths = Vec::with_capacity(state.paths.len());
     let mut dirty = Dirty::default();
     let empty = Ground::new(terrain.field.clone());
@@ -457,12 +457,21 @@ struct PathElevation {
     infeasible: Option<Arc<str>>,
 }
 
+/// What is known of all paths before their elevations are.
+struct Known<'a> {
+    surveys: &'a [Arc<Survey>],
+    /// The elevation that each would have alone.
+    alone: &'a [Arc<Profile>],
+    crossings: &'a [Crossing],
+    crossings_of: &'a [Vec<Crossing>],
+}
+
 /// The elevations of all paths. Paths that hang together through crossings are solved together; where neither they nor what they depend on changed, elevations are those of before.
 fn heights(
     before: Option<&Results>,
     state: &State,
     terrain: &LaidTerrain,
-    (alone, crossings, crossings_of): (&[Arc<Profile>], &[Crossing], &[Vec<Crossing>]),
+    Known { surveys, alone, crossings, crossings_of }: Known<'_>,
     is_old: &dyn Fn(&Arc<Path>) -> bool,
 ) -> (Vec<PathElevation>, Option<Unordered>) {
     let mut found: Vec<Option<PathElevation>> = state.paths.iter().map(|_| None).collect();
@@ -481,6 +490,7 @@ fn heights(
             continue;
         }
         let paths: Vec<&Path> = members.iter().map(|&i| state.paths[i].as_ref()).collect();
+        let surveyed: Vec<&Survey> = members.iter().map(|&i| surveys[i].as_ref()).collect();
         let profiles: Vec<&Profile> = members.iter().map(|&i| alone[i].as_ref()).collect();
         let ids: BTreeSet<PathId> = paths.iter().map(|p| p.id).collect();
         let own: Vec<usize> = (0..crossings.len()).filter(|&c| ids.contains(&crossings[c].first.path)).collect();
@@ -491,17 +501,17 @@ fn heights(
         });
         let fair: Vec<Profile> = (0..paths.len()).map(|k| profile_with(paths[k], profiles[k], &wanted[k])).collect();
         let site = Site {
-            natural: &terrain.field,
             waters: &terrain.waters,
             soils: &state.soils,
             rules: &state.rules,
             earthwork: &state.settings.earthwork,
         };
         let any = paths.iter().any(|p| p.heights == HeightMode::Engineered);
-        let (exact, trouble) = match if any { engineered(&paths, &fair, &of_group, &site) } else { Ok(Vec::new()) } {
-            Ok(exact) => (exact, None),
-            Err(error) => (Vec::new(), Some(Arc::from(error.to_string()))),
-        };
+        let (exact, trouble) =
+            match if any { engineered(&paths, &surveyed, &fair, &of_group, &site) } else { Ok(Vec::new()) } {
+                Ok(exact) => (exact, None),
+                Err(error) => (Vec::new(), Some(Arc::from(error.to_string()))),
+            };
         let mut exact = exact.into_iter();
         for ((&i, wanted), fair) in members.iter().zip(wanted).zip(fair) {
             let profile = Arc::new(exact.next().flatten().unwrap_or(fair));

@@ -10,31 +10,28 @@ use crate::engineered::{
 use crate::ground::{EarthworkOptions, Soils};
 use crate::profile::Profile;
 use crate::rules::DesignRules;
-use crate::survey::FREEBOARD_M;
-use crate::terrain::{Heightfield, Waters};
+use crate::survey::{FREEBOARD_M, Step, Survey};
+use crate::terrain::Waters;
 
 /// Vertical curves begin and end at multiples of this length, m, or of a quarter of the path.
 const KNOTS_M: f64 = 10.0;
 
-/// The ground is told at this spacing, m.
-const GROUND_M: f64 = 5.0;
-
 /// What the heights of engineered paths depend on beside the paths.
 pub(crate) struct Site<'a> {
-    pub(crate) natural: &'a Heightfield,
     pub(crate) waters: &'a Waters,
     pub(crate) soils: &'a Soils,
     pub(crate) rules: &'a DesignRules,
     pub(crate) earthwork: &'a EarthworkOptions,
 }
 
-/// The profiles of those of the paths that are engineered. `others` are the profiles that the paths have without that, in the paths' order: those of paths that are not engineered are
+/// The profiles of those of the paths that are engineered. `surveys` are of the ground along the paths, `others` are the profiles that the paths have without that, in the paths' order: those of paths that are not engineered are
 /// kept to.
 ///
 /// # Errors
 /// When the limits contradict each other.
 pub(crate) fn engineered(
     paths: &[&Path],
+    surveys: &[&Survey],
     others: &[Profile],
     crossings: &[Crossing],
     site: &Site<'_>,
@@ -44,7 +41,7 @@ pub(crate) fn engineered(
     for (i, path) in paths.iter().enumerate() {
         if path.heights == HeightMode::Engineered {
             number[i] = Some(roads.len());
-            roads.push(road(path, site));
+            roads.push(road(path, surveys[i], site));
         }
     }
     let of = |id: PathId| paths.iter().position(|p| p.id == id);
@@ -87,15 +84,12 @@ fn held(road: &mut EngineeredRoad, station_m: f64, height_m: f64, meeting: Meeti
     }
 }
 
-fn road(path: &Path, site: &Site<'_>) -> EngineeredRoad {
+fn road(path: &Path, survey: &Survey, site: &Site<'_>) -> EngineeredRoad {
     let length_m = path.length_m();
-    let count = (length_m / GROUND_M).ceil().max(2.0) as usize;
-    let ground: Vec<[f64; 2]> = (0..=count)
-        .map(|i| {
-            let station = length_m * i as f64 / count as f64;
-            [station, site.natural.height(path.plan.point_at(station))]
-        })
-        .collect();
+    let steps: Vec<(f64, &Step)> = survey.stationed().collect();
+    let mut ground: Vec<[f64; 2]> = steps.iter().map(|(station, step)| [*station, step.natural_m]).collect();
+    // Of a segment that is next to nothing, rounding leaves nothing.
+    ground.dedup_by(|later, earlier| later[0] <= earlier[0]);
     let kmh = path.speed_limits().iter().map(|l| l.1).fold(0.0, f64::max);
     let rule = site.rules.at(kmh);
     let soil = site.soils.at(path.plan.point_at(0.5 * length_m));
@@ -112,7 +106,7 @@ fn road(path: &Path, site: &Site<'_>) -> EngineeredRoad {
             fill_weight: 1.0,
         },
         fixed: fixed_points(path),
-        bounds: wet(path, &ground, site.waters),
+        bounds: wet(path, &steps, site.waters),
         start_grade: None,
         end_grade: None,
         stretches: Vec::new(),
@@ -148,12 +142,12 @@ fn fixed_points(path: &Path) -> Vec<FixedPoint> {
 }
 
 /// Over water a road keeps its freeboard.
-fn wet(path: &Path, ground: &[[f64; 2]], waters: &Waters) -> Vec<HeightBound> {
+fn wet(path: &Path, steps: &[(f64, &Step)], waters: &Waters) -> Vec<HeightBound> {
     let mut bounds: Vec<HeightBound> = Vec::new();
     let mut before = None;
-    let end = ground.last().map_or(0.0, |g| g[0]);
-    for [station, z] in ground {
-        let level = waters.level_at(path.plan.point_at(*station)).filter(|level| z < level);
+    let end = steps.last().map_or(0.0, |step| step.0);
+    for (station, step) in steps {
+        let level = step.is_wet.then(|| waters.level_at(path.plan.point_at(*station))).flatten();
         match (bounds.last_mut(), level) {
             (Some(last), Some(_)) if level == before => last.to_m = (*station + AROUND_M).min(end),
             (_, Some(level)) => bounds.push(HeightBound {

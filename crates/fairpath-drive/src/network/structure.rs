@@ -78,16 +78,10 @@ pub(crate) fn structures<'a>(
         return Vec::new();
     }
     let (length, closed) = (path.length_m(), path.plan.is_closed());
-    let (mut stations, mut at) = (Vec::new(), Vec::new());
     let mut elevation = profile.along();
-    let mut compare = |station: f64, step: &Step| {
-        stations.push(station);
-        at.push((elevation(station).height_m - step.natural_m, step.is_wet));
-    };
-    for (start, segment) in survey.segments() {
-        segment.steps.iter().for_each(|step| compare(start + step.s_m, step));
-    }
-    compare(length, &survey.end);
+    let compare =
+        |(station, step): (f64, &Step)| (station, (elevation(station).height_m - step.natural_m, step.is_wet));
+    let (stations, at): (Vec<f64>, Vec<(f64, bool)>) = survey.stationed().map(compare).unzip();
     let count = stations.len() - 1;
     let station = |i: usize| if i > count { stations[i - count] + length } else { stations[i] };
     // A closed path is gone round twice, so that what leads over its seam is seen in one piece.
