@@ -19,7 +19,7 @@
 //! | differentiate | [`Segment::position_jacobian`], [`Segment::position_hessian`]; by arc length [`Segment::tangent_at`]; raw moments: [`moments`], [`moments_to_4`] |
 //! | find the nearest point | [`Segment::nearest`], [`Segment::nearest_all`], [`Spline::nearest`] |
 //! | intersect | [`Segment::intersections`], [`Spline::intersections`], [`Spline::self_intersections`], [`Segment::self_overlap`]; many splines: [`Spline::intersections_in`], [`Spline::self_intersections_in`] |
-//! | bound | [`Segment::bounding_box`], [`Spline::bounding_box`] |
+//! | bound | [`Segment::bounding_box`], [`Spline::bounding_box`]; distances: [`Spline::distance_bounds`] |
 //! | cut and turn round | [`Segment::subsegment`], [`Segment::reversed`], [`Spline::subspline`], [`Spline::split_at`], [`Spline::reversed`] |
 //! | find a station | [`Spline::locate`], [`Spline::station`] |
 //! | move, turn, scale, mirror | [`Similarity`] with [`Segment::transformed`], [`Spline::transformed`] |

@@ -449,15 +449,11 @@ impl Spline {
     #[must_use]
     pub fn distance_bounds(&self, point: Point) -> Vec<f64> {
         let segments = self.segments();
-        let last = segments[segments.len() - 1];
-        let knots = segments.iter().map(|segment| segment.start).chain([last.end()]);
-        let mut away = knots.map(|knot| length_of(point - knot));
-        let mut before = away.next().unwrap_or(0.0);
-        let bound = |(segment, after): (&Segment, f64)| {
-            let ends = std::mem::replace(&mut before, after) + after;
-            (0.5 * (ends - segment.length)).max(0.0)
-        };
-        segments.iter().zip(away).map(bound).collect()
+        let end = segments[segments.len() - 1].end();
+        let knots = segments.iter().map(|segment| segment.start).chain([end]);
+        let away: Vec<f64> = knots.map(|knot| length_of(point - knot)).collect();
+        let bound = |(segment, ends): (&Segment, &[f64])| (0.5 * (ends[0] + ends[1] - segment.length)).max(0.0);
+        segments.iter().zip(away.windows(2)).map(bound).collect()
     }
 
     /// The point of the spline nearest to `point`; of several equally near, one of them. See [`Segment::nearest`] for the accuracy.

@@ -12,7 +12,7 @@ use std::sync::Arc;
 /// The ground is looked at for a profile in steps of this length, m.
 pub(crate) const LOOK_M: f64 = 5.0;
 
-/// Profile and ground are compared in steps of this length, m.
+/// Profile and ground are compared in steps of this length, m; engineered roads follow the ground as these tell it.
 pub(crate) const STEP_M: f64 = 2.0;
 
 /// Cross-sections are taken in steps of this length, m, or in equal parts of it.
@@ -56,7 +56,6 @@ pub(crate) struct Survey {
 #[derive(Debug, PartialEq)]
 pub(crate) struct SurveyedSegment {
     segment: Segment,
-    bounds: Rect,
     /// Where it begins between its marks, m: see [`origin_m`].
     from_m: f64,
     /// Without its ends, and none at all on a segment that is too short.
@@ -78,7 +77,7 @@ pub(crate) struct Look {
     pub(crate) spacing_m: f64,
 }
 
-/// A place where a profile is compared with the ground.
+/// A place where a profile is compared with the ground, and where the ground of an engineered road is told.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Step {
     /// From the start of the segment, m.
@@ -111,16 +110,17 @@ impl Survey {
         let is_same = |(old, new): &(&Arc<SurveyedSegment>, &Segment)| old.segment == **new;
         let front = old.iter().zip(new).take_while(is_same).count();
         let back = old[front..].iter().rev().zip(new[front..].iter().rev()).take_while(is_same).count();
-        let fresh = parallel::map(&new[front..new.len() - back], |segment| {
-            Arc::new(SurveyedSegment::of(segment, ground, waters))
-        });
+        let made = &new[front..new.len() - back];
+        let fresh = parallel::map(made, |segment| Arc::new(SurveyedSegment::of(segment, ground, waters)));
         let (ahead, behind) = (old[..front].iter().cloned(), old[old.len() - back..].iter().cloned());
+        let old = before.map_or(&[][..], |before| &before.boxes);
+        let boxed = made.iter().map(Segment::bounding_box);
+        let boxes: Vec<Rect> =
+            old[..front].iter().copied().chain(boxed).chain(old[old.len() - back..].iter().copied()).collect();
+        let bounds = boxes.iter().fold(boxes[0], |bounds, other| bounds.union(*other));
         let last = &new[new.len() - 1];
         let end = Step::of(last, last.length, ground, waters);
-        let segments: Vec<Arc<SurveyedSegment>> = ahead.chain(fresh).chain(behind).collect();
-        let boxes: Vec<Rect> = segments.iter().map(|surveyed| surveyed.bounds).collect();
-        let bounds = boxes.iter().fold(boxes[0], |bounds, other| bounds.union(*other));
-        Self { segments, boxes, bounds, end }
+        Self { segments: ahead.chain(fresh).chain(behind).collect(), boxes, bounds, end }
     }
 
     /// Its steps with their stations, m, ascending, from the start of the plan to its end.
@@ -155,7 +155,7 @@ impl SurveyedSegment {
         let from_start = |marks: Vec<f64>| std::iter::once(0.0).chain(marks);
         let steps = from_start(marks(segment, from_m, STEP_M)).map(|s| Step::of(segment, s, ground, waters)).collect();
         let lines = from_start(cuts(segment, from_m)).map(|s| Line::of(segment, s, ground)).collect();
-        Self { segment: *segment, bounds: segment.bounding_box(), from_m, looks, steps, lines }
+        Self { segment: *segment, from_m, looks, steps, lines }
     }
 
     /// Its length, m.

@@ -1,4 +1,4 @@
-//! Work on many items that know nothing of each other: on several threads where the feature `parallel` is on, and with the same results in the same order either way.
+//! Work on many items that know nothing of each other, or on two things: on several threads where the feature `parallel` is on, and with the same results in the same order either way.
 //!
 //! Threads are those of rayon's pool in which the caller runs, or else of its global one.
 

@@ -69,6 +69,7 @@ fn measured(document: &Document, path: &Path, mode: &str) -> Result<(), Box<dyn 
             let command = Command::Oversketch { points_m, path, pixel_m: PIXEL_M };
             let (mut edit, mut fit) = (Vec::new(), Vec::new());
             for _ in 0..RUNS {
+                // A copy, since to forget what was undone before is no part of an edit.
                 let mut edited = document.clone();
                 let begun = Instant::now();
                 if edited.run(command.clone(), &NoFiles).is_err() {

@@ -139,14 +139,15 @@ fn derived(before: Option<(&State, &Results)>, state: &State, terrain: &LaidTerr
     for (i, path) in state.paths.iter().enumerate() {
         let old = old_path(path.id);
         let elevation = &elevations[i];
-        let same_heights = old.is_some_and(|old| same_course(path) && old.profile == elevation.profile);
+        let same_heights = old.is_some_and(|old| same_course(path) && is_same(&old.profile, &elevation.profile));
         // Whether there is a bridge, and how long it is, depends on the path below it.
         let same_others = || {
             let places = crossings_of[i].iter().flat_map(Crossing::places);
             places.into_iter().all(|place| {
                 let before = old_path(place.path).map(|old| &old.profile);
                 let now = index(place.path).map(|j| &elevations[j].profile);
-                state.path_of(place.path).is_some_and(same_course) && before == now
+                let same_heights = before.zip(now).is_some_and(|(before, now)| is_same(before, now));
+                state.path_of(place.path).is_some_and(same_course) && same_heights
             })
         };
         let as_before = |old: &&Arc<PathResult>| {
@@ -400,6 +401,11 @@ fn intersections(
     junctions(crossings, &path_of, &profile_of, &known)
 }
 
+/// Whether two are equal; of what was kept it is soon told.
+fn is_same<T: PartialEq>(a: &Arc<T>, b: &Arc<T>) -> bool {
+    Arc::ptr_eq(a, b) || a == b
+}
+
 fn is_same_terrain(a: &LaidTerrain, b: &LaidTerrain) -> bool {
     Arc::ptr_eq(&a.field, &b.field) && Arc::ptr_eq(&a.waters, &b.waters)
 }
@@ -490,7 +496,8 @@ fn heights(
             continue;
         }
         let paths: Vec<&Path> = members.iter().map(|&i| state.paths[i].as_ref()).collect();
-        let surveyed: Vec<&Survey> = members.iter().map(|&i| surveys[i].as_ref()).collect();
+        let surveyed: Vec<Surveyed<'_>> =
+            members.iter().map(|&i| -> Surveyed<'_> { (&state.paths[i], &surveys[i]) }).collect();
         let profiles: Vec<&Profile> = members.iter().map(|&i| alone[i].as_ref()).collect();
         let ids: BTreeSet<PathId> = paths.iter().map(|p| p.id).collect();
         let own: Vec<usize> = (0..crossings.len()).filter(|&c| ids.contains(&crossings[c].first.path)).collect();
@@ -507,11 +514,10 @@ fn heights(
             earthwork: &state.settings.earthwork,
         };
         let any = paths.iter().any(|p| p.heights == HeightMode::Engineered);
-        let (exact, trouble) =
-            match if any { engineered(&paths, &surveyed, &fair, &of_group, &site) } else { Ok(Vec::new()) } {
-                Ok(exact) => (exact, None),
-                Err(error) => (Vec::new(), Some(Arc::from(error.to_string()))),
-            };
+        let (exact, trouble) = match if any { engineered(&surveyed, &fair, &of_group, &site) } else { Ok(Vec::new()) } {
+            Ok(exact) => (exact, None),
+            Err(error) => (Vec::new(), Some(Arc::from(error.to_string()))),
+        };
         let mut exact = exact.into_iter();
         for ((&i, wanted), fair) in members.iter().zip(wanted).zip(fair) {
             let profile = Arc::new(exact.next().flatten().unwrap_or(fair));

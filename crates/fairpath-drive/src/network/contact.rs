@@ -123,7 +123,8 @@ pub(crate) fn crossings_between((a, of_a): Surveyed<'_>, (b, of_b): Surveyed<'_>
     let mut ends = Vec::new();
     for (own, (other, survey), turned) in [(a, (b, of_b), false), (b, (a, of_a), true)] {
         let reach = other.section.width_m() * 0.5 + END_REACH_M;
-        let around = survey.bounds.inflate(reach, reach);
+        // Wide enough that what decides is the distance.
+        let around = survey.bounds.inflate(reach + 1.0, reach + 1.0);
         for station in own.ends() {
             let end = own.plan.point_at(station);
             if !around.contains(end) {

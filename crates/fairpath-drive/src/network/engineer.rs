@@ -1,6 +1,6 @@
 //! Heights of those paths that are to be engineered: paths that hang together come in, with the heights that the others have; the profiles of least earthwork go out.
 
-use super::contact::{Crossing, Meeting};
+use super::contact::{Crossing, Meeting, Surveyed};
 use super::elevation::separation_m;
 use super::path::{HeightMode, Path, PathId};
 use crate::engineered::{
@@ -10,7 +10,7 @@ use crate::engineered::{
 use crate::ground::{EarthworkOptions, Soils};
 use crate::profile::Profile;
 use crate::rules::DesignRules;
-use crate::survey::{FREEBOARD_M, Step, Survey};
+use crate::survey::{FREEBOARD_M, Step};
 use crate::terrain::Waters;
 
 /// Vertical curves begin and end at multiples of this length, m, or of a quarter of the path.
@@ -24,24 +24,24 @@ pub(crate) struct Site<'a> {
     pub(crate) earthwork: &'a EarthworkOptions,
 }
 
-/// The profiles of those of the paths that are engineered. `surveys` are of the ground along the paths, `others` are the profiles that the paths have without that, in the paths' order: those of paths that are not engineered are
+/// The profiles of those of the paths that are engineered. `others` are the profiles that the paths have without that, in the paths' order: those of paths that are not engineered are
 /// kept to.
 ///
 /// # Errors
 /// When the limits contradict each other.
 pub(crate) fn engineered(
-    paths: &[&Path],
-    surveys: &[&Survey],
+    surveyed: &[Surveyed<'_>],
     others: &[Profile],
     crossings: &[Crossing],
     site: &Site<'_>,
 ) -> Result<Vec<Option<Profile>>, EngineeredError> {
+    let paths: Vec<&Path> = surveyed.iter().map(|(path, _)| *path).collect();
     let mut number = vec![None; paths.len()];
     let mut roads = Vec::new();
-    for (i, path) in paths.iter().enumerate() {
+    for (i, &(path, survey)) in surveyed.iter().enumerate() {
         if path.heights == HeightMode::Engineered {
             number[i] = Some(roads.len());
-            roads.push(road(path, surveys[i], site));
+            roads.push(road((path, survey), site));
         }
     }
     let of = |id: PathId| paths.iter().position(|p| p.id == id);
@@ -49,7 +49,7 @@ pub(crate) fn engineered(
     for crossing in crossings {
         let (Some(a), Some(b)) = (of(crossing.first.path), of(crossing.second.path)) else { continue };
         let (s, t) = (crossing.first.station_m, crossing.second.station_m);
-        let separation = separation_m(paths, crossing);
+        let separation = separation_m(&paths, crossing);
         let height = |i: usize, station: f64| others[i].at(station).height_m;
         match (number[a], number[b], crossing.meeting) {
             (None, None, _) => {}
@@ -84,7 +84,7 @@ fn held(road: &mut EngineeredRoad, station_m: f64, height_m: f64, meeting: Meeti
     }
 }
 
-fn road(path: &Path, survey: &Survey, site: &Site<'_>) -> EngineeredRoad {
+fn road((path, survey): Surveyed<'_>, site: &Site<'_>) -> EngineeredRoad {
     let length_m = path.length_m();
     let steps: Vec<(f64, &Step)> = survey.stationed().collect();
     let mut ground: Vec<[f64; 2]> = steps.iter().map(|(station, step)| [*station, step.natural_m]).collect();

@@ -85,9 +85,12 @@ fn stroke_end(curve: &Spline, sketch: &Polyline, last: bool, options: &Oversketc
     let mut best: Option<(f64, f64, f64)> = None;
     let mut begin = 0.0;
     for (segment, bound) in curve.segments().iter().zip(curve.distance_bounds(point.to_point())) {
-        // Most of a long curve is far away.
-        let nearest = if bound <= 2.0 * options.reach { segment.nearest_all(point.to_point()) } else { Vec::new() };
-        for near in nearest.into_iter().filter(|near| near.distance <= options.reach) {
+        // Most of a long curve is far away; twice as far as it may be, whatever rounding did to the bound.
+        if bound > 2.0 * options.reach {
+            begin += segment.length;
+            continue;
+        }
+        for near in segment.nearest_all(point.to_point()).into_iter().filter(|near| near.distance <= options.reach) {
             let askew = segment.tangent_at(near.s).cross(direction).abs();
             let price = near.distance + ASKEW * askew;
             if best.is_none_or(|b| price < b.0) {

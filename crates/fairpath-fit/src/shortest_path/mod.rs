@@ -185,7 +185,7 @@ fn attempt(
             graph.burden(&path, cost - path.cost);
         }
         let least = best.as_ref().map_or(f64::INFINITY, |b| cost_of(&b.1));
-        // Between held ends, where a second path comes to what the first one did, so mostly does a third.
+        // Between held ends, where a second path brings nothing, a third mostly brings nothing either.
         let is_in_vain = is_held && least.is_finite() && !(cost < WORTH_A_ROUND * least);
         if best.is_none() || cost < least {
             best = Some((path, merged));

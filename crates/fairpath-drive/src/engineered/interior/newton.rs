@@ -3,7 +3,7 @@
 use super::point::{Off, Point};
 use super::softened::Softened;
 use super::system::System;
-use super::vectors::{Of, dot, set};
+use super::vectors::{Of, dot, set, size};
 
 /// How much of the way to the nearest bound a step goes.
 const NEARLY: f64 = 0.99;
@@ -33,7 +33,7 @@ pub(super) struct Newton {
 
 impl Newton {
     pub(super) fn new(system: &System<'_>) -> Self {
-        let tau = Self::of_tau(system);
+        let tau = system.of_tau();
         let none = || Of { x: Vec::new(), y: Vec::new(), w: Vec::new(), s: Vec::new() };
         Self {
             minus_prices: tau.s.clone(),
@@ -43,16 +43,6 @@ impl Newton {
             products: Vec::new(),
             right: none(),
             step: Step { at: none(), z: Vec::new(), tau: 0.0, kappa: 0.0 },
-        }
-    }
-
-    /// What τ is multiplied with on the right side of the equations; of sides it is −p, of which the softness is yet to come.
-    pub(super) fn of_tau(system: &System<'_>) -> Of {
-        Of {
-            x: system.linear.iter().map(|q| -q).collect(),
-            y: system.program.equations.values.clone(),
-            w: system.values.clone(),
-            s: system.prices.iter().map(|price| -price).collect(),
         }
     }
 
@@ -70,7 +60,7 @@ impl Newton {
         // First straight to the end, to see how far that goes; then the same with what it left out, and as far off the bounds as that asks for.
         set(&mut self.products, s.iter().zip(z).map(|(s, z)| -s * z));
         let straight = (1.0, -tau * kappa);
-        self.ask(softened, off, straight);
+        self.ask(softened, off, 1.0);
         softened.solve(system, &self.tau, &mut self.for_tau);
         softened.solve(system, &self.right, &mut self.step.at);
         self.settle((point, system, off), straight, None);
@@ -82,15 +72,15 @@ impl Newton {
         self.products.iter_mut().zip(more).for_each(|(product, (s, z))| *product += aim - s * z);
         let of_tau = aim - tau * kappa - ahead.tau * ahead.kappa;
         let centred = (1.0 - centre, of_tau);
-        self.ask(softened, off, centred);
+        self.ask(softened, off, 1.0 - centre);
         softened.solve(system, &self.right, &mut self.step.at);
         self.settle((point, system, off), centred, Some(softened));
         let share = (NEARLY * point.room(&self.step)).min(1.0);
         (share.is_finite() && point.go(share, &self.step)).then_some(share)
     }
 
-    /// The right side of a step on which so much of what is off vanishes, and products of distances and prices, and τ κ, change as told.
-    fn ask(&mut self, softened: &Softened, off: &Off, (share, _): (f64, f64)) {
+    /// The right side of a step on which so much of what is off vanishes, and products of distances and prices change as told.
+    fn ask(&mut self, softened: &Softened, off: &Off, share: f64) {
         let Self { right, inverse, products, .. } = self;
         for (right, off) in [(&mut right.x, &off.of.x), (&mut right.y, &off.of.y), (&mut right.w, &off.of.w)] {
             set(right, off.iter().map(|off| share * off));
@@ -125,7 +115,7 @@ impl Newton {
         at.add(tau, for_tau);
         if let Some(softened) = corrected {
             right.add(tau, &self.tau);
-            softened.correct(system, at, right, off);
+            softened.correct(system, at, right, size(&off.of.x).max(size(&off.of.y)));
             let more = missing(at, tau) / pivot;
             at.add(more, for_tau);
             tau += more;

@@ -1,6 +1,6 @@
 //! A point on the way, and by how much it is off what it should be.
 
-use super::newton::{Newton, Step};
+use super::newton::Step;
 use super::softened::Softened;
 use super::system::System;
 use super::vectors::{Of, add, dot, haste, size};
@@ -40,7 +40,7 @@ impl Point {
     /// Where to begin: at the least cost of a program whose rows may be anywhere at a price, with distances and prices made positive.
     pub(super) fn first(system: &System<'_>, softened: &mut Softened) -> Self {
         softened.soften(system, system.squares.iter().map(|square| 1.0 / (square + FIRST_WEIGHT)));
-        let mut at = Newton::of_tau(system);
+        let mut at = system.of_tau();
         let mut right = at.clone();
         right.s.iter_mut().zip(&softened.softness).for_each(|(s, softness)| *s *= softness);
         softened.solve(system, &right, &mut at);

@@ -1,6 +1,5 @@
 //! The linear equations of a step, with the distances and prices of rows eliminated: how soft sides are comes in, a factorisation and what it solves go out.
 
-use super::point::Off;
 use super::system::System;
 use super::vectors::{Of, add, set, size};
 use crate::sparse::Factor;
@@ -61,9 +60,9 @@ impl Softened {
         s.extend(below.map(|((w, softness), right)| right - w * softness));
     }
 
-    /// Makes a solution nearer to what [`Softened::solve`] says.
-    pub(super) fn correct(&self, system: &System<'_>, solution: &mut Of, right: &Of, off: &Off) {
-        let enough = CORRECTED.max(CORRECTED_SHARE * size(&off.of.x).max(size(&off.of.y)));
+    /// Makes a solution nearer to what [`Softened::solve`] says; so much is off of prices and equations.
+    pub(super) fn correct(&self, system: &System<'_>, solution: &mut Of, right: &Of, off: f64) {
+        let enough = CORRECTED.max(CORRECTED_SHARE * off);
         let mut left = system.left(solution, right);
         for _ in 0..CORRECTIONS {
             let before = size(&left);

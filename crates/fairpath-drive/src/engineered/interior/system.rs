@@ -102,6 +102,16 @@ impl<'a> System<'a> {
         }
     }
 
+    /// What τ is multiplied with on the right side of the equations; of sides it is −p, of which the softness is yet to come.
+    pub(super) fn of_tau(&self) -> Of {
+        Of {
+            x: self.linear.iter().map(|q| -q).collect(),
+            y: self.program.equations.values.clone(),
+            w: self.values.clone(),
+            s: self.prices.iter().map(|price| -price).collect(),
+        }
+    }
+
     /// Numbers of rows in the program's order.
     pub(super) fn in_order(&self, of_rows: &[f64]) -> Vec<f64> {
         let mut numbers = vec![0.0; of_rows.len()];
