@@ -43,7 +43,8 @@ pub(super) fn add(scene: &mut Scene, path: &PathResult, results: &Results) {
                 }
             }
         }
-        for (section, backward) in [(&run[0], true), (&run[run.len() - 1], false)] {
+        let ends = [(&run[0], bridge.from_m, true), (&run[run.len() - 1], bridge.to_m, false)];
+        for (section, _, backward) in ends.into_iter().filter(|(_, end_m, _)| is_on_bank(path, results, *end_m)) {
             // The abutment closes the embankment below the deck, down into the ground.
             let foot = section.natural_m.min(section.height_m + deep) - 1.0 - section.height_m;
             let corner = |left_m: f64, above_m: f64| beside(section, left_m, above_m);
@@ -83,6 +84,18 @@ pub(super) fn add(scene: &mut Scene, path: &PathResult, results: &Results) {
         at: at.collect(),
         parts: vec![unit],
     });
+}
+
+/// Whether an embankment begins where a bridge ends: not within an intersection, nor where another bridge goes on around a closed path.
+fn is_on_bank(path: &PathResult, results: &Results, end_m: f64) -> bool {
+    let length = path.path.length_m();
+    let places = if path.path.plan.is_closed() { &[-1.0, 0.0, 1.0][..] } else { &[0.0] };
+    let places = places.iter().map(|turn| end_m + turn * length);
+    let bridges = path.structures.iter().filter(|s| s.carrier == Carrier::Bridge);
+    let ends = bridges.flat_map(|bridge| [bridge.from_m, bridge.to_m]);
+    let meeting = ends.filter(|end| places.clone().any(|place| (place - end).abs() < 1e-6)).count();
+    let mut spans = results.junctions.iter().flat_map(|junction| &junction.spans).filter(|span| span.0 == path.path.id);
+    meeting < 2 && !spans.any(|(_, [from, to])| places.clone().any(|place| (*from..=*to).contains(&place)))
 }
 
 /// The stretches of a path along which nothing leads off to a side.
