@@ -4,7 +4,7 @@
 use super::state::{FoliageRegion, LaidTerrain, State};
 use crate::furniture::{DRY_M, Sign, Tree, signs, standing, stopping_arms, tiles_of, wild_trees_on};
 use crate::ground::{
-    Corridor, CorridorSite, CrossSection, Ground, Hit, Hits, TILE, TileIndex, corridor, cross_sections,
+    Asked, Corridor, CorridorSite, CrossSection, Ground, Hit, Hits, TILE, TileIndex, corridor, cross_sections,
 };
 use crate::groups::Groups;
 use crate::network::{
@@ -347,11 +347,11 @@ fn planted(
             which.extend(around(&dirty.shaped).into_iter().filter(may_be_wet));
         }
     }
+    // Beside a tile, too, something may be in the way of its trees.
     let corridors: Vec<&Hits> = paths.iter().map(|p| &p.corridor.hits).collect();
+    let asked = Asked::of(&around(&which), &corridors);
     let none = Arc::default();
-    plant(&mut trees, &which, |tile| {
-        standing(tile, wild.get(&tile).unwrap_or(&none), ground, &corridors, &terrain.waters)
-    });
+    plant(&mut trees, &which, |tile| standing(tile, wild.get(&tile).unwrap_or(&none), ground, &asked, &terrain.waters));
     (wild, trees)
 }
 

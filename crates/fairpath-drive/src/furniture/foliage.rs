@@ -4,7 +4,7 @@
 //! the second kind, with several lots for each cell). So each tree depends on its neighbourhood only: a change of one place changes nothing elsewhere, and the same seed gives the same wood.
 
 use crate::document::FoliageRegion;
-use crate::ground::{FineGrid, Ground, Hits, TILE, TileIndex};
+use crate::ground::{Asked, FineGrid, Ground, TILE, TileIndex};
 use crate::terrain::{Waters, inside};
 use fairpath_curve::{Point, Rect, Vec2};
 use std::cmp::Ordering;
@@ -93,13 +93,13 @@ pub(crate) fn standing(
     tile: TileIndex,
     wild: &Arc<Vec<Tree>>,
     ground: &Ground,
-    corridors: &[&Hits],
+    asked: &Asked<'_>,
     waters: &Waters,
 ) -> Arc<Vec<Tree>> {
     if wild.is_empty() {
         return wild.clone();
     }
-    let clear = Clear::around(tile, ground.grid(), corridors);
+    let clear = Clear::around(tile, ground.grid(), asked);
     let stands = |tree: &Tree| {
         let is_wet = || waters.level_at(tree.place).is_some_and(|level| ground.height(tree.place) < level + DRY_M);
         !clear.is_kept_at(tree.place) && !is_wet()
@@ -151,13 +151,12 @@ impl<'a> Clear<'a> {
     const BESIDE: usize = 2;
     const SIDE: usize = TILE + 2 * Self::BESIDE;
 
-    fn around(tile: TileIndex, grid: &'a FineGrid, corridors: &[&Hits]) -> Self {
+    fn around(tile: TileIndex, grid: &'a FineGrid, asked: &Asked<'_>) -> Self {
         let first = tile.map(|i| (i as usize * TILE).saturating_sub(Self::BESIDE));
         let mut kept = vec![false; Self::SIDE * Self::SIDE];
         let [columns, [low, high]] = tile.map(|i| [i.saturating_sub(1), i + 1]);
-        let beside = corridors.iter().flat_map(|hits| {
-            (columns[0]..=columns[1]).flat_map(move |column| hits.range([column, low]..=[column, high]))
-        });
+        let beside = (columns[0]..=columns[1]).flat_map(|column| (low..=high).map(move |row| [column, row]));
+        let beside = beside.flat_map(|other| asked.on(other).iter().map(move |hits| (other, *hits)));
         for (other, hits) in beside {
             // Of the tiles in the rows before and behind, most samples are too far away.
             let rows = match other[1].cmp(&tile[1]) {
@@ -168,7 +167,7 @@ impl<'a> Clear<'a> {
             let [from, to] =
                 [rows.start, rows.end].map(|row| hits.partition_point(|h| usize::from(h.sample) < row * TILE));
             for hit in hits[from..to].iter().filter(|hit| hit.keeps_clear()) {
-                let at = grid.sample_of(*other, hit.sample);
+                let at = grid.sample_of(other, hit.sample);
                 let inside = |i: usize| at[i].checked_sub(first[i]).filter(|at| *at < Self::SIDE);
                 if let (Some(column), Some(row)) = (inside(0), inside(1)) {
                     kept[row * Self::SIDE + column] = true;
@@ -233,7 +232,7 @@ fn hash(x: u64) -> u64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::ground::Hit;
+    use crate::ground::{Hit, Hits};
     use crate::terrain::{Heightfield, Samples};
     use proptest::prelude::*;
     use std::collections::BTreeSet;
@@ -272,7 +271,8 @@ mod tests {
             for hits in corridors.iter_mut().flat_map(|hits| hits.values_mut()) {
                 Arc::make_mut(hits).sort_by_key(|hit| hit.sample);
             }
-            let corridors: Vec<&Hits> = corridors.iter().collect();
+            let all: BTreeSet<TileIndex> = (0..5).flat_map(|column| (0..5).map(move |row| [column, row])).collect();
+            let asked = Asked::of(&all, &corridors.iter().collect::<Vec<_>>());
             for ((column, row), (u, v)) in places {
                 let [low, high] = tile_box(&grid, [column, row]);
                 let place = low + Vec2::new(u * (high - low).x, v * (high - low).y);
@@ -281,7 +281,7 @@ mod tests {
                 }
                 let [columns, rows] = grid.samples_around(&[place - spacing, place + spacing]).unwrap();
                 let expected = kept.iter().any(|(c, r)| (columns[0]..=columns[1]).contains(c) && (rows[0]..=rows[1]).contains(r));
-                prop_assert_eq!(Clear::around([column, row], &grid, &corridors).is_kept_at(place), expected);
+                prop_assert_eq!(Clear::around([column, row], &grid, &asked).is_kept_at(place), expected);
             }
         }
     }

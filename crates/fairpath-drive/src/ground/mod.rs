@@ -1,6 +1,7 @@
 //! The ground: the natural terrain, and what was cut and filled for paths. The terrain itself is never changed: what was shaped lies over it in tiles of a finer grid, so that undoing
 //! is exact, and the cost of a change is that of its corridor.
 
+mod asked;
 mod corridor;
 mod raster;
 mod soil;
@@ -12,6 +13,7 @@ pub use soil::{Soil, SoilRegion, Soils};
 pub use tiles::{FineGrid, TileIndex};
 pub use volumes::{MassHaul, areas_m2_at, mass_haul, volumes_m3};
 
+pub(crate) use asked::Asked;
 pub(crate) use corridor::{Site as CorridorSite, cross_sections};
 pub(crate) use raster::{Corridor, Hit, Hits, corridor};
 pub(crate) use tiles::TILE;
@@ -121,8 +123,9 @@ impl Ground {
     /// not depend on when they were drawn.
     #[must_use]
     pub(crate) fn reshaped(&self, which: &BTreeSet<TileIndex>, corridors: &[&Hits]) -> Self {
+        let asked = Asked::of(which, corridors);
         let which: Vec<TileIndex> = which.iter().copied().collect();
-        let shaped = parallel::map(&which, |tile| self.shaped_samples_of(*tile, corridors));
+        let shaped = parallel::map(&which, |tile| shaped_samples(asked.on(*tile)));
         let mut tiles = self.tiles.clone();
         for (tile, samples) in which.into_iter().zip(shaped) {
             if samples.is_empty() {
@@ -132,32 +135,6 @@ impl Ground {
             }
         }
         Self { natural: self.natural.clone(), grid: self.grid, tiles }
-    }
-
-    /// The samples of a tile that are shaped where these corridors are, in order, and their heights, m.
-    fn shaped_samples_of(&self, tile: TileIndex, corridors: &[&Hits]) -> Vec<(u16, f32)> {
-        let asked: Vec<&[Hit]> = corridors.iter().filter_map(|hits| Some(hits.get(&tile)?.as_slice())).collect();
-        let bounded = |z: f32, hit: &Hit| z.min(hit.high_m).max(hit.low_m);
-        let mut samples = Vec::new();
-        let mut add = |sample: u16, natural: f32, z: f32| {
-            if z != natural {
-                samples.push((sample, z));
-            }
-        };
-        if let [alone] = asked[..] {
-            for hit in alone {
-                add(hit.sample, hit.natural_m, bounded(hit.natural_m, hit));
-            }
-        } else {
-            let mut all: Vec<&Hit> = asked.into_iter().flatten().collect();
-            // The nearest path has the last word, and of two as near the one that was drawn later.
-            all.sort_by(|p, q| p.sample.cmp(&q.sample).then(q.beyond_m.total_cmp(&p.beyond_m)));
-            for group in all.chunk_by(|p, q| p.sample == q.sample) {
-                let natural = group[0].natural_m;
-                add(group[0].sample, natural, group.iter().fold(natural, |z, hit| bounded(z, hit)));
-            }
-        }
-        samples
     }
 
     /// No height on a tile is lower, m.
@@ -184,4 +161,29 @@ impl Ground {
         }
         volumes
     }
+}
+
+/// The samples of a tile that are shaped by what paths ask of it, in order, and their heights, m.
+fn shaped_samples(asked: &[&[Hit]]) -> Vec<(u16, f32)> {
+    let bounded = |z: f32, hit: &Hit| z.min(hit.high_m).max(hit.low_m);
+    let mut samples = Vec::new();
+    let mut add = |sample: u16, natural: f32, z: f32| {
+        if z != natural {
+            samples.push((sample, z));
+        }
+    };
+    if let [alone] = asked {
+        for hit in *alone {
+            add(hit.sample, hit.natural_m, bounded(hit.natural_m, hit));
+        }
+    } else {
+        let mut all: Vec<&Hit> = asked.iter().copied().flatten().collect();
+        // The nearest path has the last word, and of two as near the one that was drawn later.
+        all.sort_by(|p, q| p.sample.cmp(&q.sample).then(q.beyond_m.total_cmp(&p.beyond_m)));
+        for group in all.chunk_by(|p, q| p.sample == q.sample) {
+            let natural = group[0].natural_m;
+            add(group[0].sample, natural, group.iter().fold(natural, |z, hit| bounded(z, hit)));
+        }
+    }
+    samples
 }
