@@ -43,7 +43,7 @@ impl Ground {
     /// The ground before anything was shaped.
     #[must_use]
     pub fn new(natural: Arc<Heightfield>) -> Self {
-        Self { grid: FineGrid::of(&natural), natural, tiles: Tiles::new() }
+        Self { grid: FineGrid::of(&natural), natural, tiles: Tiles::default() }
     }
 
     /// The terrain as it was.
@@ -60,20 +60,20 @@ impl Ground {
 
     /// The tiles in which something was shaped.
     pub fn shaped_tiles(&self) -> impl Iterator<Item = TileIndex> + '_ {
-        self.tiles.keys().copied()
+        self.tiles.iter().map(|(tile, _)| tile)
     }
 
     /// Column and row of every sample that was shaped, tile by tile.
     pub fn shaped_samples(&self) -> impl Iterator<Item = [usize; 2]> + '_ {
         let grid = self.grid;
-        self.tiles.iter().flat_map(move |(&tile, shaped)| shaped.samples.iter().map(move |s| grid.sample_of(tile, s.0)))
+        self.tiles.iter().flat_map(move |(tile, shaped)| shaped.samples.iter().map(move |s| grid.sample_of(tile, s.0)))
     }
 
     /// The tiles in which this ground differs from another one of the same terrain.
     #[must_use]
     pub fn changed_tiles(&self, other: &Self) -> Vec<TileIndex> {
-        let tiles: BTreeSet<TileIndex> = self.tiles.keys().chain(other.tiles.keys()).copied().collect();
-        let same = |tile: &TileIndex| match (self.tiles.get(tile), other.tiles.get(tile)) {
+        let tiles: BTreeSet<TileIndex> = self.shaped_tiles().chain(other.shaped_tiles()).collect();
+        let same = |tile: &TileIndex| match (self.tiles.get(*tile), other.tiles.get(*tile)) {
             (Some(a), Some(b)) => Arc::ptr_eq(a, b) || a == b,
             _ => false,
         };
@@ -95,7 +95,7 @@ impl Ground {
     #[must_use]
     pub fn shaped(&self, at: [usize; 2]) -> Option<f64> {
         let (tile, sample) = self.grid.tile_of(at);
-        self.tiles.get(&tile)?.height(sample).map(f64::from)
+        self.tiles.get(tile)?.height(sample).map(f64::from)
     }
 
     /// The height at a place, m, by bilinear interpolation on the fine grid: where nothing was shaped, that of the terrain.
@@ -128,11 +128,7 @@ impl Ground {
         let shaped = parallel::map(&which, |tile| shaped_samples(asked.on(*tile)));
         let mut tiles = self.tiles.clone();
         for (tile, samples) in which.into_iter().zip(shaped) {
-            if samples.is_empty() {
-                tiles.remove(&tile);
-            } else {
-                tiles.insert(tile, Arc::new(Tile { samples }));
-            }
+            tiles.set(tile, Tile { samples });
         }
         Self { natural: self.natural.clone(), grid: self.grid, tiles }
     }
@@ -143,7 +139,7 @@ impl Ground {
         // Between its last samples and the first of the next tiles it is as these are, too.
         let [low, high] = [tile, [column + 1, row + 1]].map(|tile| self.grid.place(self.grid.sample_of(tile, 0)));
         let next = [tile, [column + 1, row], [column, row + 1], [column + 1, row + 1]];
-        let shaped = next.iter().filter_map(|tile| self.tiles.get(tile)).flat_map(|tile| &tile.samples);
+        let shaped = next.iter().filter_map(|tile| self.tiles.get(*tile)).flat_map(|tile| &tile.samples);
         shaped.map(|(_, z)| f64::from(*z)).fold(self.natural.lowest_m([low, high]), f64::min)
     }
 
@@ -153,7 +149,7 @@ impl Ground {
         let step = self.grid.spacing_m();
         let cell = step.x * step.y;
         let mut volumes = [0.0; 2];
-        for (&tile, shaped) in &self.tiles {
+        for (tile, shaped) in self.tiles.iter() {
             for &(sample, z) in &shaped.samples {
                 let raised = f64::from(z) - self.natural_at(self.grid.sample_of(tile, sample));
                 volumes[usize::from(raised > 0.0)] += raised.abs() * cell;

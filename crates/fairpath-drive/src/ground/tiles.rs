@@ -121,8 +121,34 @@ pub(crate) struct Tile {
     pub(crate) samples: Vec<(u16, f32)>,
 }
 
-/// The shaped samples of all tiles.
-pub(crate) type Tiles = BTreeMap<TileIndex, Arc<Tile>>;
+/// The shaped samples of all tiles, by column and row. Copies share each column until one of them changes it: to copy takes time in proportion to the number of columns, not of tiles.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Tiles(BTreeMap<u32, Arc<BTreeMap<u32, Arc<Tile>>>>);
+
+impl Tiles {
+    /// A tile, if anything was shaped there.
+    pub(crate) fn get(&self, [column, row]: TileIndex) -> Option<&Arc<Tile>> {
+        self.0.get(&column)?.get(&row)
+    }
+
+    /// All tiles in which something was shaped, in the order of their indices.
+    pub(crate) fn iter(&self) -> impl Iterator<Item = (TileIndex, &Arc<Tile>)> {
+        self.0.iter().flat_map(|(&column, rows)| rows.iter().map(move |(&row, tile)| ([column, row], tile)))
+    }
+
+    /// Puts a tile in its place; one without samples is none.
+    pub(crate) fn set(&mut self, [column, row]: TileIndex, tile: Tile) {
+        let rows = self.0.entry(column).or_default();
+        if !tile.samples.is_empty() {
+            Arc::make_mut(rows).insert(row, Arc::new(tile));
+        } else if rows.contains_key(&row) {
+            Arc::make_mut(rows).remove(&row);
+        }
+        if rows.is_empty() {
+            self.0.remove(&column);
+        }
+    }
+}
 
 impl Tile {
     /// The height of a sample, m, where it was shaped.
@@ -142,6 +168,27 @@ mod tests {
             assert_eq!(floored(x), f64::floor(x) as i64, "{x}");
         }
         assert_eq!([floored(-1e300), floored(f64::INFINITY)], [i64::MIN, i64::MAX]);
+    }
+
+    #[test]
+    fn a_copy_of_tiles_is_not_changed_with_them() {
+        let tile = |z: f32| Tile { samples: if z > 0.0 { vec![(0, z)] } else { Vec::new() } };
+        let mut tiles = Tiles::default();
+        [[2, 1], [0, 5], [2, 0], [0, 3]].into_iter().for_each(|at| tiles.set(at, tile(1.0)));
+        let before = tiles.clone();
+        let all = |tiles: &Tiles| tiles.iter().map(|(at, tile)| (at, tile.samples[0].1)).collect::<Vec<_>>();
+        let old = vec![([0, 3], 1.0), ([0, 5], 1.0), ([2, 0], 1.0), ([2, 1], 1.0)];
+        assert_eq!(all(&tiles), old);
+        for (at, z) in [([0, 3], 0.0), ([0, 5], 0.0), ([2, 1], 2.0), ([1, 1], 0.0), ([2, 7], 0.0)] {
+            tiles.set(at, tile(z));
+        }
+        assert_eq!(all(&tiles), [([2, 0], 1.0), ([2, 1], 2.0)]);
+        assert_eq!([tiles.get([0, 5]).is_some(), before.get([0, 5]).is_some()], [false, true]);
+        assert_eq!(all(&before), old);
+        // Where all is gone, nothing of a column is left.
+        let mut others = Tiles::default();
+        [([2, 1], 2.0), ([2, 0], 1.0)].into_iter().for_each(|(at, z)| others.set(at, tile(z)));
+        assert_eq!(tiles, others);
     }
 
     #[test]
