@@ -444,7 +444,7 @@ impl Segment {
 }
 
 impl Spline {
-    /// For each segment a lower bound of its distance from `point`, quickly told: every point of a segment lies in the ellipse with its ends as foci and its arc length as the long axis.
+    /// For each segment, in order, a lower bound of its distance from `point`, in the unit of the spline and quickly told: every point of a segment lies in the ellipse with its ends as foci and its arc length as the long axis; of a segment that is not valid the bound means nothing.
     /// Since knots of a valid spline agree to 1e-9 of its size only, a bound may exceed the distance by as little.
     #[must_use]
     pub fn distance_bounds(&self, point: Point) -> Vec<f64> {
